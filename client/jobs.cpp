@@ -12,7 +12,7 @@ namespace {
 using JobStub = v1::JobService::Stub;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kGiveUpAfter{60};
+constexpr std::chrono::seconds kReconnectTimeout{60};
 
 v1::CreateJobRequest creation(v1::Job job, const JobOptions& options) {
   v1::CreateJobRequest request;
@@ -48,10 +48,10 @@ class Watcher {
       }
       const bool never_answered = last_.name().empty();
       if (error.code != Code::kUnavailable || never_answered ||
-          Clock::now() - last_news_ > kGiveUpAfter)
+          Clock::now() - last_message_time_ > kReconnectTimeout)
         return tl::unexpected(error);
-      if (lost && !told_) lost(error);
-      told_ = true;
+      if (lost && !is_loss_reported_) lost(error);
+      is_loss_reported_ = true;
       pause(connection_, kTryAgainAfter);
     }
   }
@@ -68,8 +68,8 @@ class Watcher {
 
   void take(const v1::WatchJobResponse& message) {
     request_.set_after_seq(message.seq());
-    last_news_ = Clock::now();
-    told_ = false;
+    last_message_time_ = Clock::now();
+    is_loss_reported_ = false;
     if (message.has_job()) last_ = message.job();
     update_(message);
   }
@@ -78,8 +78,8 @@ class Watcher {
   const std::function<void(const v1::WatchJobResponse&)>& update_;
   v1::WatchJobRequest request_;
   v1::Job last_;
-  Clock::time_point last_news_ = Clock::now();
-  bool told_ = false;
+  Clock::time_point last_message_time_ = Clock::now();
+  bool is_loss_reported_ = false;
 };
 
 }  // namespace

@@ -136,7 +136,7 @@ Status Daemon::open_certificate(const Config& config) {
   HP_ASSIGN_OR_RETURN(
       certificate_, CertificateReloader::open(config.server_tls_certificate, config.server_tls_key,
                                               system_clock_ms));
-  if (is_within_fence(config.server_tls_key, config.workers_program)) {
+  if (is_within_ruleset(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
         {{"message",
           fmt::format("{}: workers, which read untrusted files, can read the TLS key there; move "
@@ -199,7 +199,7 @@ Status Daemon::open_rig(const Config& config) {
   gateway_ = std::make_unique<RigGateway>(rig_.get(), *leases_);
   places_ = std::make_unique<RigReference>(*database_, rig_.get());
   HP_RETURN_IF_ERROR(places_->load());
-  dips_ = std::make_unique<DipExecutor>(DipSurroundings{*gateway_, *places_, *jobs_, *device_jobs_,
+  dips_ = std::make_unique<DipExecutor>(DipDependencies{*gateway_, *places_, *jobs_, *device_jobs_,
                                                         *calibrations_, layout_, system_clock_ms});
   return {};
 }

@@ -159,8 +159,9 @@ int run(const Config& config, const std::string& first_admin) {
   return 0;
 }
 
-int obey(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "admin") return admin::obey(argc - 1, argv + 1);
+int run_command(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "admin")
+    return admin::run_command(argc - 1, argv + 1);
   Options options;
   CLI::App app(
       "Keeps Hydroprint's job queue and runs its workers. Serves gRPC and HTTP on loopback "
@@ -213,7 +214,7 @@ int obey(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return obey(argc, argv);
+    return run_command(argc, argv);
   } catch (const std::exception& error) {
     return refuse(error.what(), ExitStatus::kFailed);
   }

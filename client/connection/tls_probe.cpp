@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kPatience_s = 2;
 
-struct Freeing {
+struct Deleter {
   void operator()(SSL_CTX* context) const { SSL_CTX_free(context); }
   void operator()(SSL* ssl) const { SSL_free(ssl); }
   void operator()(BIO* bio) const { BIO_free(bio); }
@@ -29,7 +29,7 @@ struct Freeing {
   void operator()(addrinfo* addresses) const { ::freeaddrinfo(addresses); }
 };
 template <class T>
-using Owned = std::unique_ptr<T, Freeing>;
+using Owned = std::unique_ptr<T, Deleter>;
 
 class Descriptor {
  public:
@@ -54,13 +54,14 @@ int connect_to(const ServerAddress& address) {
   if (::getaddrinfo(address.host.c_str(), port.c_str(), &hints, &found) != 0) return -1;
   const Owned<addrinfo> all(found);
   for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
-    const int made = ::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
-    if (made < 0) continue;
+    const int descriptor =
+        ::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
+    if (descriptor < 0) continue;
     const timeval patience{kPatience_s, 0};  // applies to connecting as well
-    ::setsockopt(made, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-    ::setsockopt(made, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    if (::connect(made, one->ai_addr, one->ai_addrlen) == 0) return made;
-    ::close(made);
+    ::setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    ::setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    if (::connect(descriptor, one->ai_addr, one->ai_addrlen) == 0) return descriptor;
+    ::close(descriptor);
   }
   return -1;
 }
@@ -130,26 +131,26 @@ class WithoutSigpipe {
   sigset_t pipe_{}, before_{};
 };
 
-enum class Spoken { kByTls, kOtherwise, kNotKnown };
+enum class Handshake { kTls, kOther, kUnknown };
 
 // Performs the TLS handshake without verifying the certificate.
-Spoken shake_hands(SSL& ssl, const ServerAddress& address, int socket) {
-  X509_VERIFY_PARAM* const asked = SSL_get0_param(&ssl);
-  X509_VERIFY_PARAM_set_flags(asked, X509_V_FLAG_PARTIAL_CHAIN);
+Handshake try_handshake(SSL& ssl, const ServerAddress& address, int socket) {
+  X509_VERIFY_PARAM* const parameters = SSL_get0_param(&ssl);
+  X509_VERIFY_PARAM_set_flags(parameters, X509_V_FLAG_PARTIAL_CHAIN);
   in6_addr ignored{};
   const bool is_address = inet_pton(AF_INET, address.host.c_str(), &ignored) == 1 ||
                           inet_pton(AF_INET6, address.host.c_str(), &ignored) == 1;
   if (is_address) {
-    X509_VERIFY_PARAM_set1_ip_asc(asked, address.host.c_str());
+    X509_VERIFY_PARAM_set1_ip_asc(parameters, address.host.c_str());
   } else {
-    X509_VERIFY_PARAM_set1_host(asked, address.host.c_str(), 0);
+    X509_VERIFY_PARAM_set1_host(parameters, address.host.c_str(), 0);
     SSL_set_tlsext_host_name(&ssl, address.host.c_str());
   }
   SSL_set_fd(&ssl, socket);
   ERR_clear_error();
-  if (SSL_connect(&ssl) == 1) return Spoken::kByTls;
+  if (SSL_connect(&ssl) == 1) return Handshake::kTls;
   const bool is_other = ERR_GET_REASON(ERR_peek_error()) == SSL_R_WRONG_VERSION_NUMBER;
-  return is_other ? Spoken::kOtherwise : Spoken::kNotKnown;
+  return is_other ? Handshake::kOther : Handshake::kUnknown;
 }
 
 }  // namespace
@@ -165,15 +166,15 @@ std::string tls_trouble(const ConnectionOptions& options) {
   trust(*context, options.ca_pem);
   const Owned<SSL> ssl(SSL_new(context.get()));
   if (!ssl) return {};
-  const Spoken spoken = shake_hands(*ssl, *address, socket.get());
+  const Handshake handshake = try_handshake(*ssl, *address, socket.get());
   ERR_clear_error();
   if (!options.is_tls) {
-    if (spoken != Spoken::kByTls) return {};
+    if (handshake != Handshake::kTls) return {};
     return fmt::format(
         "the server requires TLS; use --server https://{}, with --ca FILE for a private authority",
         options.server);
   }
-  if (spoken == Spoken::kOtherwise) {
+  if (handshake == Handshake::kOther) {
     return fmt::format(
         "the server does not speak TLS; check the address, or use --server {} without https:// and "
         "without --ca",

@@ -20,7 +20,7 @@ struct Options {
   bool replaces = false, from_stdin = false;
 };
 
-void tell(const Contents& contents) {
+void print_contents(const Contents& contents) {
   std::cout << contents.jobs << " jobs and " << contents.files << " files, "
             << format_bytes(contents.bytes) << std::endl;
 }
@@ -33,7 +33,7 @@ Status run_backup(const Options& options) {
     std::cerr << "warning: " << one_line(warning) << std::endl;
   }
   std::cout << one_line(options.file) << ": ";
-  tell(contents);
+  print_contents(contents);
   return {};
 }
 
@@ -41,7 +41,7 @@ Status run_restore(const Options& options) {
   HP_ASSIGN_OR_RETURN(const Contents contents,
                       restore(options.state_dir, options.file, options.replaces));
   std::cout << "restored ";
-  tell(contents);
+  print_contents(contents);
   return {};
 }
 
@@ -77,7 +77,7 @@ CLI::App* add(CLI::App& app, const char* name, const char* help, Options& option
 
 }  // namespace
 
-int obey(int argc, char** argv) {
+int run_command(int argc, char** argv) {
   ::umask(077);
   std::signal(SIGPIPE, SIG_IGN);
   Options options;

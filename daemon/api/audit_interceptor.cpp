@@ -24,7 +24,7 @@ using grpc::experimental::InterceptionHookPoints;
 using grpc::experimental::InterceptorBatchMethods;
 using grpc::experimental::ServerRpcInfo;
 
-constexpr std::int64_t kQuietAbout_ms = 60'000;
+constexpr std::int64_t kRecordInterval_ms = 60'000;
 constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
 constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
@@ -102,18 +102,19 @@ std::string outcome_of(const grpc::Status& status) {
 }
 
 /// Whether a frequent call is due to be recorded.
-class Quiet {
+class RateLimit {
  public:
-  bool is_new(const std::string& key) {
+  bool is_due(const std::string& key) {
     const std::lock_guard lock(mutex_);
     const std::int64_t now_ms = system_clock_ms();
-    std::erase_if(told_, [&](const auto& entry) { return now_ms - entry.second > kQuietAbout_ms; });
-    return told_.emplace(key, now_ms).second;
+    std::erase_if(last_recorded_,
+                  [&](const auto& entry) { return now_ms - entry.second > kRecordInterval_ms; });
+    return last_recorded_.emplace(key, now_ms).second;
   }
 
  private:
   std::mutex mutex_;
-  std::map<std::string, std::int64_t> told_;
+  std::map<std::string, std::int64_t> last_recorded_;
 };
 
 // Returns whether clients repeat the call as long as an action continues.
@@ -138,11 +139,11 @@ class Recorder {
  private:
   std::uint64_t note(const auth::AuditEntry& entry) {
     const std::string key = entry.who + " " + entry.what + entry.outcome;
-    return is_frequent(entry.what) && !quiet_.is_new(key) ? 0 : audit_.note(entry);
+    return is_frequent(entry.what) && !rate_limit_.is_due(key) ? 0 : audit_.note(entry);
   }
 
   auth::AuditLog& audit_;
-  Quiet quiet_;
+  RateLimit rate_limit_;
 };
 
 class AuditInterceptor final : public grpc::experimental::Interceptor {
@@ -160,7 +161,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
       see_reply(static_cast<const Message*>(step->GetSendMessage()));
     }
     if (step->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
-      tell(step->GetSendStatus());
+      record_status(step->GetSendStatus());
     }
     step->Proceed();
   }
@@ -182,7 +183,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
   void see_reply(const Message* reply) {
     if (reply != nullptr && entry_.object.empty()) entry_.object = object_of(*reply);
   }
-  void tell(const grpc::Status& status) {
+  void record_status(const grpc::Status& status) {
     if (entry_.who.empty()) return;
     entry_.what = short_name(call_.method());
     entry_.outcome = outcome_of(status);

@@ -66,9 +66,9 @@ class CalibrationService final : public v1::CalibrationService::Service {
     if (cut_page(found, size)) reply.set_next_page_token(std::to_string(found.back().id));
     const RigPlace now = backend_.places.place();
     for (const Calibration& calibration : found) {
-      v1::Calibration& told = *reply.add_calibrations();
-      told = to_message(calibration, now);
-      hide_files(caller, told);
+      v1::Calibration& message = *reply.add_calibrations();
+      message = to_message(calibration, now);
+      hide_files(caller, message);
     }
     return {};
   }
@@ -80,14 +80,14 @@ class CalibrationService final : public v1::CalibrationService::Service {
     HP_ASSIGN_OR_RETURN(const v1::Calibration entered, check_calibration(request.calibration()));
     HP_ASSIGN_OR_RETURN(const std::string mesh, parse_asset_name(entered.mesh().asset()));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs({{entered.mesh().name(), mesh}}));
-    NewCalibration made;
-    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
-    made.body = entered.SerializeAsString();
+    NewCalibration definition;
+    HP_ASSIGN_OR_RETURN(definition.owner, owner_of(context));
+    definition.body = entered.SerializeAsString();
     HP_ASSIGN_OR_RETURN(
         const Calibration out,
-        backend_.calibrations.create(made, request_key("CreateCalibration", request)));
+        backend_.calibrations.create(definition, request_key("CreateCalibration", request)));
     log(LogLevel::kInfo, "calibration_entered",
-        {{"calibration", calibration_name(out.id)}, {"owner", made.owner}});
+        {{"calibration", calibration_name(out.id)}, {"owner", definition.owner}});
     return out;
   }
 

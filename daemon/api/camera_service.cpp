@@ -12,7 +12,7 @@ class CameraService final : public v1::CameraService::Service {
 
   grpc::Status GetDepthPicture(grpc::ServerContext* context, const v1::GetDepthPictureRequest*,
                                v1::DepthPicture* reply) override {
-    auto picture = backend_.live.look([context] { return context->IsCancelled(); });
+    auto picture = backend_.live.recent_picture([context] { return context->IsCancelled(); });
     if (!picture) return to_grpc(picture.error());
     reply->set_png(std::move(picture->png));
     reply->set_width(picture->width);

@@ -18,12 +18,12 @@ using google::protobuf::util::MessageDifferencer;
 using std::chrono::milliseconds;
 using EventClock = std::chrono::steady_clock;
 
-constexpr int kMostEventWatches = 128;  // each occupies a thread
+constexpr int kMaxEventWatches = 128;  // each occupies a thread
 constexpr int kEventBatch = 100;
 constexpr milliseconds kRigPeriod{100};
 constexpr milliseconds kRigQuietest{2000};
 constexpr milliseconds kQueuePeriod{500};
-constexpr milliseconds kEventNap{250};
+constexpr milliseconds kEventPollInterval{250};
 
 struct Topics {
   bool job = false, rig = false, queue = false, lease = false;
@@ -71,7 +71,7 @@ class EventWatch {
     first.set_seq(seq_);
     HP_RETURN_IF_ERROR(send(first));
     for (;;) {
-      const std::uint64_t rings = backend_.jobs.notifier().count();
+      const std::uint64_t version = backend_.jobs.notifier().count();
       HP_ASSIGN_OR_RETURN(const bool is_all, send_jobs());
       HP_RETURN_IF_ERROR(send_rig());
       HP_RETURN_IF_ERROR(send_lease());
@@ -79,7 +79,8 @@ class EventWatch {
       HP_RETURN_IF_ERROR(check_serving(backend_));
       HP_RETURN_IF_ERROR(backend_.access.check_still(caller_));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client disconnected");
-      if (is_all) backend_.jobs.notifier().wait(rings, topics_.rig ? kRigPeriod : kEventNap);
+      if (is_all)
+        backend_.jobs.notifier().wait(version, topics_.rig ? kRigPeriod : kEventPollInterval);
     }
   }
 
@@ -163,7 +164,7 @@ class EventService final : public v1::EventService::Service {
   grpc::Status WatchEvents(grpc::ServerContext* context, const v1::WatchEventsRequest* request,
                            grpc::ServerWriter<v1::WatchEventsResponse>* writer) override {
     const int before = watches_.fetch_add(1);
-    const Status status = before < kMostEventWatches
+    const Status status = before < kMaxEventWatches
                               ? watch(*context, *request, *writer)
                               : fail(Code::kResourceExhausted,
                                      "too many watches are open; try again later", "WATCHES_FULL");

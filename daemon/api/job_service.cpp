@@ -15,7 +15,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr int kMostWatches = 128;  // each occupies a thread
+constexpr int kMaxWatches = 128;  // each occupies a thread
 
 class JobService final : public v1::JobService::Service {
  public:
@@ -72,11 +72,11 @@ class JobService final : public v1::JobService::Service {
   grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
                         grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
     const int before = watches_.fetch_add(1);
-    const Status status = before < kMostWatches ? watch(*context, *request, *writer)
-                                                : fail(Code::kResourceExhausted,
-                                                       "too many watches are open; list events "
-                                                       "instead, or try again later",
-                                                       "WATCHES_FULL");
+    const Status status = before < kMaxWatches ? watch(*context, *request, *writer)
+                                               : fail(Code::kResourceExhausted,
+                                                      "too many watches are open; list events "
+                                                      "instead, or try again later",
+                                                      "WATCHES_FULL");
     watches_.fetch_sub(1);
     return to_grpc(status);
   }
@@ -133,7 +133,7 @@ class JobService final : public v1::JobService::Service {
                                         backend_.database));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(JobRequest checked, job_request(*kind, request.job(), sources()));
-    checked.made.owner = caller.name;
+    checked.definition.owner = caller.name;
     checked.key = request_key("CreateJob", request);
     checked.lease_id = request.lease_id();
     JobExecutor& executor = backend_.executors[kind->executor()];
@@ -150,10 +150,10 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(Job job, executor.create(request));
     log(LogLevel::kInfo, "job_created",
         {{"job", job.id},
-         {"owner", job.made.owner},
-         {"verb", job.made.work.verb},
+         {"owner", job.definition.owner},
+         {"verb", job.definition.work.verb},
          {"state", name_of(job.state)},
-         {"name", job.made.display_name}});
+         {"name", job.definition.display_name}});
     return job;
   }
 
@@ -179,10 +179,10 @@ class JobService final : public v1::JobService::Service {
     again.job = to_message(old);
     HP_RETURN_IF_ERROR(
         check_may_create(caller, kind->least_role(), again.job, backend_.jobs, backend_.database));
-    again.made = old.made;
-    again.made.owner = caller.name;
-    again.made.retry_of = old.id;
-    again.made.use_cache = false;
+    again.definition = old.definition;
+    again.definition.owner = caller.name;
+    again.definition.retry_of = old.id;
+    again.definition.use_cache = false;
     again.key = request_key("RetryJob", request);
     return store(backend_.executors[kind->executor()], again);
   }

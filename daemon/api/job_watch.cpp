@@ -4,7 +4,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kBatch = 100;
-constexpr std::chrono::milliseconds kLongestNap{250};
+constexpr std::chrono::milliseconds kPollInterval{250};
 
 tl::unexpected<Error> client_gone() { return fail(Code::kCancelled, "the client disconnected"); }
 
@@ -39,7 +39,7 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
   HP_ASSIGN_OR_RETURN(const Job first, backend.jobs.get(id));
   if (!send({seq, first, {}})) return client_gone();
   for (;;) {
-    const std::uint64_t rings = backend.jobs.notifier().count();
+    const std::uint64_t version = backend.jobs.notifier().count();
     // Reads the state before the events, so that no event is missed after the end of a job.
     HP_ASSIGN_OR_RETURN(const Job job, backend.jobs.get(id));
     HP_ASSIGN_OR_RETURN(const bool sent, send_events(backend, id, seq, send));
@@ -47,7 +47,7 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
     if (is_finished(job.state)) return {};
     HP_RETURN_IF_ERROR(check_serving(backend));
     if (gone()) return client_gone();
-    backend.jobs.notifier().wait(rings, kLongestNap);
+    backend.jobs.notifier().wait(version, kPollInterval);
   }
 }
 

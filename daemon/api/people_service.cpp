@@ -281,9 +281,9 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status link(const v1::CreateSignInLinkRequest& request, v1::SignInLink& reply) {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.name()));
-    HP_ASSIGN_OR_RETURN(const auto made, backend_.accounts.sessions().make_link(name));
-    reply.set_token(made.first);
-    *reply.mutable_expire_time() = time_of(made.second);
+    HP_ASSIGN_OR_RETURN(const auto new_key, backend_.accounts.sessions().make_link(name));
+    reply.set_token(token_and_expiry.first);
+    *reply.mutable_expire_time() = time_of(token_and_expiry.second);
     return {};
   }
 
@@ -317,13 +317,13 @@ class PeopleService final : public v1::PeopleService::Service {
                   "STATE_FORBIDS");
     }
     HP_RETURN_IF_ERROR(check_fields(request));
-    auth::NewKey made{caller.name, request.display_name(), caller.role, 0};
+    auth::NewKey new_key{caller.name, request.display_name(), caller.role, 0};
     if (request.has_role()) {
-      HP_ASSIGN_OR_RETURN(made.role, role_in("role", request.role()));
-      HP_RETURN_IF_ERROR(check_role(caller, made.role));
+      HP_ASSIGN_OR_RETURN(new_key.role, role_in("role", request.role()));
+      HP_RETURN_IF_ERROR(check_role(caller, new_key.role));
     }
-    if (request.has_ttl()) made.ttl_ms = request.ttl().seconds() * 1000;
-    HP_ASSIGN_OR_RETURN(const auto key, backend_.accounts.keys().create(made));
+    if (request.has_ttl()) new_key.ttl_ms = request.ttl().seconds() * 1000;
+    HP_ASSIGN_OR_RETURN(const auto key, backend_.accounts.keys().create(new_key));
     *reply.mutable_api_key() = key_message(key.first);
     reply.set_key(key.second);
     return {};

@@ -17,11 +17,11 @@ using Json = nlohmann::json;
 
 // Throws an exception of the JSON library if a key is missing.
 void add_warnings(const Json& head, v1::Preview& out) {
-  for (const Json& told : head.at("warnings")) {
+  for (const Json& entry : head.at("warnings")) {
     v1::Preview::Warning& warning = *out.add_warnings();
-    warning.set_code(told.at("code").get<std::string>());
-    warning.set_message(told.at("message").get<std::string>());
-    warning.set_where(told.at("where").get<std::string>());
+    warning.set_code(entry.at("code").get<std::string>());
+    warning.set_message(entry.at("message").get<std::string>());
+    warning.set_where(entry.at("where").get<std::string>());
   }
 }
 
@@ -74,7 +74,7 @@ class PreviewService final : public v1::PreviewService::Service {
     const std::string& owner = caller.name;
     HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.database));
     HP_ASSIGN_OR_RETURN(const PreviewRequest ask, check_preview(request));
-    HP_ASSIGN_OR_RETURN(Previewed shown, backend_.previews.compute(owner, ask, [&context] {
+    HP_ASSIGN_OR_RETURN(PreviewResult shown, backend_.previews.compute(owner, ask, [&context] {
       return context.IsCancelled();
     }));
     try {

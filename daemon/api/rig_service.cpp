@@ -20,10 +20,10 @@ using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
 // Together with JobService's limit, this is far below the server's number of threads.
-constexpr int kMostRigWatches = 32;
+constexpr int kMaxRigWatches = 32;
 constexpr double kDefaultRate_hz = 10;
 constexpr std::chrono::seconds kQuietest{2};
-constexpr milliseconds kWatchLook{100};
+constexpr milliseconds kWatchInterval{100};
 constexpr double kDefaultSpeed_mm_per_s = 5;
 
 /// StopMotion has its own threads, which other calls cannot occupy.
@@ -52,7 +52,7 @@ class RigService final
                         grpc::ServerWriter<v1::Rig>* writer) override {
     const int before = watches_.fetch_add(1);
     const Status status =
-        before < kMostRigWatches
+        before < kMaxRigWatches
             ? watch(*context, *request, *writer)
             : fail(Code::kResourceExhausted,
                    "too many watches are open; get the rig instead, or try again later",
@@ -179,13 +179,13 @@ class RigService final
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     v1::Rig sent;
     SteadyClock::time_point sent_at;
-    for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
+    for (bool first = true;; std::this_thread::sleep_for(kWatchInterval)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
       HP_RETURN_IF_ERROR(backend_.access.check_still(caller));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client disconnected");
       const auto since = SteadyClock::now() - sent_at;
       // A sleep may end slightly early; without this tolerance the rate would be halved.
-      if (!first && since < period - kWatchLook / 10) continue;
+      if (!first && since < period - kWatchInterval / 10) continue;
       v1::Rig now = rig_message(backend_.gateway);
       if (!first && since < quietest && looks_same(now, sent)) continue;
       if (!writer.Write(now)) return fail(Code::kCancelled, "the client disconnected");

@@ -10,9 +10,9 @@ Result<std::string> owner_of(const grpc::ServerContextBase& context) {
   return std::move(caller).name;
 }
 
-Result<int> page_size(std::int32_t asked, int otherwise) {
-  if (asked < 0) return invalid_field("page_size", "must not be negative");
-  return asked == 0 ? otherwise : std::min(asked, 1000);
+Result<int> page_size(std::int32_t size, int default_size) {
+  if (size < 0) return invalid_field("page_size", "must not be negative");
+  return size == 0 ? default_size : std::min(size, 1000);
 }
 
 Status check_serving(const ServiceContext& backend) {

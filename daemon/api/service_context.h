@@ -56,7 +56,7 @@ struct ServiceContext {
 [[nodiscard]] Result<std::string> owner_of(const grpc::ServerContextBase& context);
 
 /// Returns the page size: the default for 0, at most 1000; SPEC_INVALID if negative.
-[[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
+[[nodiscard]] Result<int> page_size(std::int32_t size, int default_size);
 
 /// Returns kUnavailable, SHUTTING_DOWN once the daemon shuts down.
 [[nodiscard]] Status check_serving(const ServiceContext& backend);

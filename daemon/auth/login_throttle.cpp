@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kSecond_ms = 1000;
 constexpr std::int64_t kMemory_ms = 3600 * kSecond_ms;
-constexpr std::size_t kMostKept = 10000;
+constexpr std::size_t kMaxEntries = 10000;
 constexpr int kMostDoublings = 20;
 
 }  // namespace
@@ -66,7 +66,7 @@ void LoginThrottle::succeeded(const std::string& name, const std::string& peer) 
     const auto found = failures_.find(key);
     if (found != failures_.end() && !good_.contains({name, peer})) --found->second.count;
   }
-  if (good_.size() < kMostKept) good_.insert({name, peer});
+  if (good_.size() < kMaxEntries) good_.insert({name, peer});
 }
 
 void LoginThrottle::reject() {
@@ -80,10 +80,10 @@ std::int64_t LoginThrottle::failures() const {
 }
 
 void LoginThrottle::forget_some(std::int64_t now_ms) {
-  if (failures_.size() <= kMostKept) return;
+  if (failures_.size() <= kMaxEntries) return;
   std::erase_if(failures_,
                 [&](const auto& entry) { return now_ms - entry.second.last_ms > kMemory_ms; });
-  while (failures_.size() > kMostKept) {
+  while (failures_.size() > kMaxEntries) {
     failures_.erase(std::min_element(
         failures_.begin(), failures_.end(),
         [](const auto& a, const auto& b) { return a.second.last_ms < b.second.last_ms; }));

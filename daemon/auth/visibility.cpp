@@ -23,11 +23,11 @@ bool is_theirs(const Caller& caller, const std::string& owner) {
 }
 
 tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char* what) {
-  auto refused = fail(
-      Code::kPermissionDenied,
-      job_name(job.id) + ": belongs to " + job.made.owner + ", not to " + caller.name + "; " + what,
-      "NOT_YOURS");
-  refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.made.owner}};
+  auto refused = fail(Code::kPermissionDenied,
+                      job_name(job.id) + ": belongs to " + job.definition.owner + ", not to " +
+                          caller.name + "; " + what,
+                      "NOT_YOURS");
+  refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.definition.owner}};
   return refused;
 }
 
@@ -99,7 +99,7 @@ void find_jobs(const Message& message, std::vector<std::string>& found) {
 }  // namespace
 
 bool may_see(const Caller& caller, const Job& job) {
-  return job.shared || is_theirs(caller, job.made.owner);
+  return job.shared || is_theirs(caller, job.definition.owner);
 }
 
 Status check_may_see(const Caller& caller, const Job& job) {
@@ -108,7 +108,7 @@ Status check_may_see(const Caller& caller, const Job& job) {
 }
 
 Status check_may_change(const Caller& caller, const Job& job) {
-  if (is_theirs(caller, job.made.owner)) return {};
+  if (is_theirs(caller, job.definition.owner)) return {};
   return not_yours(caller, job, "ask them, or an operator");
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kReadAtOnce = 1 << 20;
 constexpr std::size_t kWordsHeld = 16 << 10;
 constexpr std::chrono::seconds kTimeToEnd{2};
 // Longer than the program's own timeout for the camera, whose error message is more precise.
-constexpr std::chrono::seconds kMorePatience{10};
+constexpr std::chrono::seconds kStartupMargin{10};
 constexpr std::int64_t kDay_s = 24LL * 3600;
 constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";
 
@@ -36,18 +36,20 @@ Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder
 }  // namespace
 
 CameraProcess::CameraProcess(std::filesystem::path folder, std::chrono::seconds patience)
-    : folder_(std::move(folder)), patience_(patience), heard_(std::chrono::steady_clock::now()) {}
+    : folder_(std::move(folder)),
+      patience_(patience),
+      last_output_(std::chrono::steady_clock::now()) {}
 
 Result<std::unique_ptr<CameraProcess>> CameraProcess::start(const CameraConfig& camera,
                                                             const Sandbox& sandbox,
                                                             const Layout& layout) {
-  std::unique_ptr<CameraProcess> made(new CameraProcess(
-      layout.live_camera(), std::chrono::seconds(camera.patience_s) + kMorePatience));
-  const Launch launched = launch_of(camera, made->folder_);
+  std::unique_ptr<CameraProcess> process(new CameraProcess(
+      layout.live_camera(), std::chrono::seconds(camera.patience_s) + kStartupMargin));
+  const Launch launched = launch_of(camera, process->folder_);
   HP_RETURN_IF_ERROR(make_folder(launched.inputs));
   HP_RETURN_IF_ERROR(make_folder(launched.work));
-  HP_ASSIGN_OR_RETURN(made->process_, launch(launched, sandbox));
-  return made;
+  HP_ASSIGN_OR_RETURN(process->process_, launch(launched, sandbox));
+  return process;
 }
 
 CameraProcess::~CameraProcess() {
@@ -59,19 +61,19 @@ CameraProcess::~CameraProcess() {
 }
 
 std::vector<int> CameraProcess::descriptors() const {
-  return {process_.handle.get(), talks_ ? process_.answer.get() : -1};
+  return {process_.handle.get(), is_readable_ ? process_.answer.get() : -1};
 }
 
 std::vector<FramedMessage> CameraProcess::read(Time now) {
   std::vector<FramedMessage> pictures;
-  const std::size_t before = said_.size();
-  if (!talks_) return pictures;
-  talks_ = drain(process_.answer, said_, kReadAtOnce);
-  if (said_.size() > before) heard_ = now;
+  const std::size_t before = buffer_.size();
+  if (!is_readable_) return pictures;
+  is_readable_ = drain(process_.answer, buffer_, kReadAtOnce);
+  if (buffer_.size() > before) last_output_ = now;
   for (;;) {
-    auto picture = cut_framed(said_, kLargestPicture);
+    auto picture = cut_framed(buffer_, kLargestPicture);
     // The last line contains the reason for the end instead of a picture.
-    if (!picture) talks_ = false;
+    if (!picture) is_readable_ = false;
     if (!picture || !*picture) return pictures;
     pictures.push_back(std::move(**picture));
   }
@@ -85,24 +87,24 @@ void CameraProcess::ask_to_end(Time now) {
 
 bool CameraProcess::has_ended(Time now) {
   if (wait_status_) return true;
-  silent_ = silent_ || (!kill_at_ && now >= heard_ + patience_);
-  if (silent_ || (kill_at_ && now >= *kill_at_)) signal_group(process_, SIGKILL);
+  timed_out_ = timed_out_ || (!kill_at_ && now >= last_output_ + patience_);
+  if (timed_out_ || (kill_at_ && now >= *kill_at_)) signal_group(process_, SIGKILL);
   wait_status_ = wait_for_end(process_);
   if (!wait_status_) return false;
-  (void)drain(process_.answer, said_, kReadAtOnce);
+  (void)drain(process_.answer, buffer_, kReadAtOnce);
   (void)drain(process_.errors, words_, kWordsHeld);
   return true;
 }
 
 std::optional<Error> CameraProcess::failure() const {
   if (!wait_status_ || kill_at_) return {};
-  if (silent_) {
+  if (timed_out_) {
     return Error{Code::kUnavailable,
                  "the camera does not respond; unplug it and plug it in again",
                  "CAMERA_STALLED",
                  {}};
   }
-  auto why = judge(*wait_status_, StoppedFor::kNothing, words_, said_);
+  auto why = judge(*wait_status_, StopReason::kNothing, words_, buffer_);
   if (!why) {
     return Error{Code::kUnavailable,
                  "the camera program ended unexpectedly; check that "

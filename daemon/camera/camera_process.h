@@ -49,11 +49,11 @@ class CameraProcess {
   std::filesystem::path folder_;
   std::chrono::seconds patience_;  ///< maximum silence
   ChildProcess process_;
-  Time heard_;
+  Time last_output_;
   std::optional<Time> kill_at_;  ///< set if it was asked to end
-  bool silent_ = false;          ///< the process was killed because it sent nothing for too long
-  bool talks_ = true;            ///< its pipe is open, and all messages were well-formed
-  std::string said_;             ///< received bytes of an incomplete picture
+  bool timed_out_ = false;       ///< the process was killed because it sent nothing for too long
+  bool is_readable_ = true;      ///< its pipe is open, and all messages were well-formed
+  std::string buffer_;           ///< received bytes of an incomplete picture
   std::string words_;
   std::optional<int> wait_status_;
 };

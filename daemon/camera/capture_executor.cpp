@@ -43,17 +43,17 @@ void wait_for(const WorkerRun& run) {
 
 }  // namespace
 
-Result<std::unique_ptr<CaptureExecutor>> CaptureExecutor::make(CaptureSurroundings surroundings) {
+Result<std::unique_ptr<CaptureExecutor>> CaptureExecutor::make(CaptureDependencies dependencies) {
   HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
   return std::unique_ptr<CaptureExecutor>(
-      new CaptureExecutor(std::move(surroundings), std::move(sandbox)));
+      new CaptureExecutor(std::move(dependencies), std::move(sandbox)));
 }
 
 CaptureExecutor::~CaptureExecutor() { stop(); }
 
 Status CaptureExecutor::check_camera_and_rig() const {
-  HP_RETURN_IF_ERROR(check_camera(around_.camera));
-  const rig::Controller* rig = around_.gateway.controller();
+  HP_RETURN_IF_ERROR(check_camera(dependencies_.camera));
+  const rig::Controller* rig = dependencies_.gateway.controller();
   if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
     return fail(Code::kAborted, "the axis is moving; wait until it is at rest, or stop it",
                 "MOTION_IN_PROGRESS");
@@ -64,7 +64,7 @@ Status CaptureExecutor::check_camera_and_rig() const {
 Result<Job> CaptureExecutor::check(const JobRequest& request) {
   HP_RETURN_IF_ERROR(check_camera_and_rig());
   Job job;
-  job.made = request.made;
+  job.definition = request.definition;
   return job;
 }
 
@@ -73,29 +73,30 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   const double seconds = spec.has_seconds() ? spec.seconds() : kDefaultSeconds;
   const std::lock_guard lock(mutex_);
   if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
-  HP_ASSIGN_OR_RETURN(auto earlier, around_.jobs.repeated(request.made.owner, request.key));
+  HP_ASSIGN_OR_RETURN(auto earlier,
+                      dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
   HP_RETURN_IF_ERROR(check_camera_and_rig());
-  const RigPlace place = around_.places.place();
-  HP_RETURN_IF_ERROR(around_.places.keep());
-  HP_ASSIGN_OR_RETURN(Job job, around_.jobs.create(request.made, request.key));
+  const RigPlace place = dependencies_.places.place();
+  HP_RETURN_IF_ERROR(dependencies_.places.keep());
+  HP_ASSIGN_OR_RETURN(Job job, dependencies_.jobs.create(request.definition, request.key));
   // The store allows only one capture at a time.
   if (thread_.joinable()) thread_.join();
-  if (const Status noted = around_.calibrations.note_capture(job.id, place); !noted) {
+  if (const Status noted = dependencies_.calibrations.note_capture(job.id, place); !noted) {
     give_up(job, noted.error());
-    return around_.jobs.get(job.id);
+    return dependencies_.jobs.get(job.id);
   }
   cancelled_ = false;
   job_ = job.id;
   // Lends the camera before the request is answered, so that viewers see the job immediately.
-  thread_ =
-      std::thread([this, job, seconds, camera = around_.live.lend(job.id)] { go(job, seconds); });
+  thread_ = std::thread(
+      [this, job, seconds, camera = dependencies_.live.reserve(job.id)] { go(job, seconds); });
   return job;
 }
 
 Result<Job> CaptureExecutor::cancel(std::int64_t id) {
   const std::lock_guard lock(mutex_);
-  auto job = around_.jobs.cancel(id);
+  auto job = dependencies_.jobs.cancel(id);
   if (job && job_ == id) cancelled_ = true;
   return job;
 }
@@ -106,29 +107,29 @@ void CaptureExecutor::go(const Job& job, double seconds) {
 }
 
 Status CaptureExecutor::run(const Job& job, double seconds) {
-  around_.live.wait_until_free();
-  HP_RETURN_IF_ERROR(make_folder(around_.layout.run_work(job.id)));
-  const Launch launch = plan(around_.camera, around_.layout, job.id, seconds);
+  dependencies_.live.wait_until_free();
+  HP_RETURN_IF_ERROR(make_folder(dependencies_.layout.run_work(job.id)));
+  const Launch launch = plan(dependencies_.camera, dependencies_.layout, job.id, seconds);
   const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +
-                                   around_.camera.patience_s);
+                                   dependencies_.camera.patience_s);
   HP_ASSIGN_OR_RETURN(const auto run,
-                      WorkerRun::start(job, launch, sandbox_, around_.layout, limit, [] {}));
-  while (!run->step(around_.jobs, around_.clock())) {
-    if (left_) run->stop(StoppedFor::kShutdown);
-    if (cancelled_) run->stop(StoppedFor::kCancel);
+                      WorkerRun::start(job, launch, sandbox_, dependencies_.layout, limit, [] {}));
+  while (!run->step(dependencies_.jobs, dependencies_.clock())) {
+    if (left_) run->stop(StopReason::kShutdown);
+    if (cancelled_) run->stop(StopReason::kCancel);
     wait_for(*run);
   }
-  const auto ended = around_.jobs.get(job.id);
+  const auto ended = dependencies_.jobs.get(job.id);
   if (ended && ended->state == JobState::kSucceeded) latest_ms_ = ended->end_ms;
   return {};
 }
 
 /// Ends a job whose capture could not be started.
 void CaptureExecutor::give_up(const Job& job, const Error& error) {
-  discard(around_.layout.run(job.id));
+  discard(dependencies_.layout.run(job.id));
   log(LogLevel::kError, "capture_not_started", {{"job", job.id}, {"message", error.message}});
   while (!left_) {
-    const auto ended = around_.jobs.give_up(job.id, {error, {}, {}});
+    const auto ended = dependencies_.jobs.give_up(job.id, {error, {}, {}});
     if (ended || ended.error().code == Code::kFailedPrecondition ||
         ended.error().code == Code::kNotFound) {
       return;

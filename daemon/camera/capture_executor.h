@@ -19,7 +19,7 @@
 namespace hydroprint::daemon {
 
 /// The objects that captures use.
-struct CaptureSurroundings {
+struct CaptureDependencies {
   CameraConfig camera;
   LiveCamera& live;
   JobStore& jobs;
@@ -34,9 +34,9 @@ struct CaptureSurroundings {
 /// own monitoring thread, so a driver that hangs or crashes does no harm. Thread-safe.
 class CaptureExecutor final : public JobExecutor {
  public:
-  /// @param surroundings  must outlive this object
+  /// @param dependencies  must outlive this object
   [[nodiscard]] static Result<std::unique_ptr<CaptureExecutor>> make(
-      CaptureSurroundings surroundings);
+      CaptureDependencies dependencies);
   /// Calls stop() if needed.
   ~CaptureExecutor() override;
 
@@ -54,13 +54,13 @@ class CaptureExecutor final : public JobExecutor {
 
  private:
   [[nodiscard]] Status check_camera_and_rig() const;
-  CaptureExecutor(CaptureSurroundings surroundings, Sandbox sandbox)
-      : around_(std::move(surroundings)), sandbox_(std::move(sandbox)) {}
+  CaptureExecutor(CaptureDependencies dependencies, Sandbox sandbox)
+      : dependencies_(std::move(dependencies)), sandbox_(std::move(sandbox)) {}
   void go(const Job& job, double seconds);
   [[nodiscard]] Status run(const Job& job, double seconds);
   void give_up(const Job& job, const Error& error);
 
-  CaptureSurroundings around_;
+  CaptureDependencies dependencies_;
   Sandbox sandbox_;
   std::mutex mutex_;
   bool end_ = false;  // no further captures

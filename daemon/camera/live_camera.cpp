@@ -16,24 +16,24 @@ namespace {
 
 using LiveClock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLooks{10};  // how long after a request a client counts as watching
+constexpr std::chrono::seconds kExpiry{10};  // how long after a request a client counts as watching
 constexpr std::chrono::seconds kFresh{3};
-constexpr std::chrono::seconds kLongestLook{5};
+constexpr std::chrono::seconds kPictureTimeout{5};
 constexpr std::chrono::seconds kReopenAfter{3};
-constexpr std::chrono::seconds kLongestLend{5};
-constexpr std::chrono::milliseconds kGlance{50};
-constexpr int kMostWaiting = 16;
-constexpr int kAwake_ms = 200;
-constexpr int kAsleep_ms = 5000;
+constexpr std::chrono::seconds kReleaseTimeout{5};
+constexpr std::chrono::milliseconds kPollInterval{50};
+constexpr int kMaxWaiting = 16;
+constexpr int kBusyPoll_ms = 200;
+constexpr int kIdlePoll_ms = 5000;
 
 /// Parses a picture; nullopt if it is malformed.
-std::optional<LivePicture> read_picture(const FramedMessage& told, std::int64_t now_ms) {
-  const auto parsed = parse_json(told.head);
+std::optional<LivePicture> read_picture(const FramedMessage& framed_message, std::int64_t now_ms) {
+  const auto parsed = parse_json(framed_message.head);
   if (!parsed) return {};
   const nlohmann::json& head = *parsed;
   try {
     LivePicture out;
-    out.png = told.bytes;
+    out.png = framed_message.bytes;
     out.width = head.at("width").get<int>();
     out.height = head.at("height").get<int>();
     out.nearest_mm = head.at("nearest_mm").get<double>();
@@ -70,12 +70,12 @@ LiveCamera::LiveCamera(CameraConfig camera, Layout layout, Clock clock, Sandbox 
 Result<std::unique_ptr<LiveCamera>> LiveCamera::make(CameraConfig camera, Layout layout,
                                                      Clock clock) {
   HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
-  std::unique_ptr<LiveCamera> made(
+  std::unique_ptr<LiveCamera> live_camera(
       new LiveCamera(std::move(camera), std::move(layout), std::move(clock), std::move(sandbox)));
-  made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be created");
-  made->thread_ = std::thread([&live = *made] { live.work(); });
-  return made;
+  live_camera->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!live_camera->wake_.valid()) return system_failure("eventfd", "cannot be created");
+  live_camera->thread_ = std::thread([&live = *live_camera] { live.work(); });
+  return live_camera;
 }
 
 LiveCamera::~LiveCamera() { stop(); }
@@ -91,24 +91,24 @@ void LiveCamera::stop() {
 
 void LiveCamera::wake() {
   ::eventfd_write(wake_.get(), 1);
-  news_.notify_all();
+  change_.notify_all();
 }
 
-Result<LivePicture> LiveCamera::look(const std::function<bool()>& gone) {
+Result<LivePicture> LiveCamera::recent_picture(const std::function<bool()>& gone) {
   HP_RETURN_IF_ERROR(check_camera(camera_));
   std::unique_lock lock(mutex_);
   const Time start = LiveClock::now();
   if (start >= wanted_until_) failure_.reset();  // from earlier viewers
-  wanted_until_ = start + kLooks;
+  wanted_until_ = start + kExpiry;
   wake();
-  if (waiting_ >= kMostWaiting) {
+  if (waiting_ >= kMaxWaiting) {
     return fail(Code::kResourceExhausted, "too many requests wait for the camera; try again later",
                 "WATCHES_FULL");
   }
   const Waiting waiting(waiting_);
-  for (Time now = start; now < start + kLongestLook; now = LiveClock::now()) {
-    if (auto answer = known(now)) return std::move(*answer);
-    news_.wait_for(lock, kGlance);
+  for (Time now = start; now < start + kPictureTimeout; now = LiveClock::now()) {
+    if (auto answer = available_answer(now)) return std::move(*answer);
+    change_.wait_for(lock, kPollInterval);
     if (gone()) return fail(Code::kCancelled, "the client disconnected");
   }
   return fail(Code::kUnavailable,
@@ -117,19 +117,19 @@ Result<LivePicture> LiveCamera::look(const std::function<bool()>& gone) {
 }
 
 /// Returns the response that is available immediately, if any.
-std::optional<Result<LivePicture>> LiveCamera::known(Time now) const {
+std::optional<Result<LivePicture>> LiveCamera::available_answer(Time now) const {
   if (stopping_) {
     return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
                 "SHUTTING_DOWN");
   }
-  if (lent_to_ != 0) {
-    const std::string job = job_name(lent_to_);
+  if (reserved_for_ != 0) {
+    const std::string job = job_name(reserved_for_);
     return tl::unexpected(Error{Code::kAborted,
                                 job + " is using the camera; try again when it has ended",
                                 "CAMERA_BUSY",
                                 {{"job", job}}});
   }
-  if (picture_ && now < came_ + kFresh) return *picture_;
+  if (picture_ && now < picture_time_ + kFresh) return *picture_;
   if (failure_) return tl::unexpected(*failure_);
   return {};
 }
@@ -139,24 +139,24 @@ std::int64_t LiveCamera::latest_ms() const {
   return picture_ ? picture_->time_ms : 0;
 }
 
-LiveCamera::Loan LiveCamera::lend(std::int64_t job) {
+LiveCamera::Reservation LiveCamera::reserve(std::int64_t job) {
   {
     const std::lock_guard lock(mutex_);
-    lent_to_ = job;
+    reserved_for_ = job;
   }
   wake();
-  return Loan(this);
+  return Reservation(this);
 }
 
 void LiveCamera::wait_until_free() {
   std::unique_lock lock(mutex_);
-  news_.wait_for(lock, kLongestLend, [this] { return !process_ || stopping_; });
+  change_.wait_for(lock, kReleaseTimeout, [this] { return !process_ || stopping_; });
 }
 
-void LiveCamera::take_back() {
+void LiveCamera::release() {
   {
     const std::lock_guard lock(mutex_);
-    lent_to_ = 0;
+    reserved_for_ = 0;
     failure_.reset();
   }
   wake();
@@ -170,7 +170,7 @@ void LiveCamera::work() {
   }
   const std::unique_ptr<CameraProcess> last = std::move(process_);
   lock.unlock();
-  news_.notify_all();
+  change_.notify_all();
 }
 
 /// Waits until there may be work.
@@ -181,25 +181,25 @@ void LiveCamera::wait(std::unique_lock<std::mutex>& lock) {
   }
   const bool is_busy = process_ || LiveClock::now() < wanted_until_;
   lock.unlock();
-  ::poll(fds.data(), fds.size(), is_busy ? kAwake_ms : kAsleep_ms);
-  eventfd_t rings = 0;
-  ::eventfd_read(wake_.get(), &rings);
+  ::poll(fds.data(), fds.size(), is_busy ? kBusyPoll_ms : kIdlePoll_ms);
+  eventfd_t wakeups = 0;
+  ::eventfd_read(wake_.get(), &wakeups);
   lock.lock();
 }
 
 void LiveCamera::step(Time now) {
-  const bool is_wanted = lent_to_ == 0 && now < wanted_until_;
+  const bool is_wanted = reserved_for_ == 0 && now < wanted_until_;
   if (!process_) {
-    if (is_wanted && now >= again_) begin(now);
+    if (is_wanted && now >= retry_time_) begin(now);
     return;
   }
-  for (const FramedMessage& told : process_->read(now)) show(told, now);
+  for (const FramedMessage& framed_message : process_->read(now)) show(framed_message, now);
   if (!is_wanted) process_->ask_to_end(now);
   if (!process_->has_ended(now)) return;
   if (auto why = process_->failure()) fail_for_now(std::move(*why), now);
   process_ = nullptr;
   log(LogLevel::kDebug, "live_camera_ended", {});
-  news_.notify_all();
+  change_.notify_all();
 }
 
 void LiveCamera::begin(Time now) {
@@ -209,21 +209,21 @@ void LiveCamera::begin(Time now) {
   log(LogLevel::kDebug, "live_camera_started", {});
 }
 
-void LiveCamera::show(const FramedMessage& told, Time now) {
-  auto picture = read_picture(told, clock_());
+void LiveCamera::show(const FramedMessage& framed_message, Time now) {
+  auto picture = read_picture(framed_message, clock_());
   if (!picture) return;
   picture_ = std::move(picture);
-  came_ = now;
+  picture_time_ = now;
   failure_.reset();
-  news_.notify_all();
+  change_.notify_all();
 }
 
 void LiveCamera::fail_for_now(Error error, Time now) {
   log(LogLevel::kWarning, "live_camera_failed",
       {{"reason", error.reason}, {"message", error.message}});
   failure_ = std::move(error);
-  again_ = now + kReopenAfter;
-  news_.notify_all();
+  retry_time_ = now + kReopenAfter;
+  change_.notify_all();
 }
 
 }  // namespace hydroprint::daemon

@@ -42,17 +42,17 @@ class LiveCamera {
   /// @param gone  returns whether the caller has disconnected; polled
   /// @return errors as described in CameraService.GetDepthPicture; kCancelled; kUnavailable,
   ///         SHUTTING_DOWN
-  [[nodiscard]] Result<LivePicture> look(const std::function<bool()>& gone);
+  [[nodiscard]] Result<LivePicture> recent_picture(const std::function<bool()>& gone);
   /// Returns the Unix time in ms of the latest picture; 0 if there was none.
   [[nodiscard]] std::int64_t latest_ms() const;
 
-  struct GiveBack {
-    void operator()(LiveCamera* camera) const { camera->take_back(); }
+  struct Releaser {
+    void operator()(LiveCamera* camera) const { camera->release(); }
   };
   /// The job has exclusive use of the camera as long as this object lives.
-  using Loan = std::unique_ptr<LiveCamera, GiveBack>;
+  using Reservation = std::unique_ptr<LiveCamera, Releaser>;
   /// Lends the camera to a job, one at a time. No pictures are shown meanwhile.
-  [[nodiscard]] Loan lend(std::int64_t job);
+  [[nodiscard]] Reservation reserve(std::int64_t job);
   /// Waits up to 5 s until a lent camera is free. If the camera hangs for longer, the job reports
   /// it.
   void wait_until_free();
@@ -64,13 +64,13 @@ class LiveCamera {
   using Time = CameraProcess::Time;
 
   LiveCamera(CameraConfig camera, Layout layout, Clock clock, Sandbox sandbox);
-  [[nodiscard]] std::optional<Result<LivePicture>> known(Time now) const;
-  void take_back();
+  [[nodiscard]] std::optional<Result<LivePicture>> available_answer(Time now) const;
+  void release();
   void wake();
   void work();
   void step(Time now);
   void begin(Time now);
-  void show(const FramedMessage& told, Time now);
+  void show(const FramedMessage& framed_message, Time now);
   void fail_for_now(Error error, Time now);
   void wait(std::unique_lock<std::mutex>& lock);
 
@@ -80,10 +80,10 @@ class LiveCamera {
   const Sandbox sandbox_;
   UniqueFd wake_;
   mutable std::mutex mutex_;
-  std::condition_variable news_;
+  std::condition_variable change_;
   std::unique_ptr<CameraProcess> process_;
-  std::int64_t lent_to_ = 0;          // job id; 0: not lent
-  Time wanted_until_, again_, came_;  // came_: time of the picture
+  std::int64_t reserved_for_ = 0;                  // job id; 0: not lent
+  Time wanted_until_, retry_time_, picture_time_;  // picture_time_: time of the picture
   std::optional<LivePicture> picture_;
   std::optional<Error> failure_;  // failure of the latest attempt, while a client watches
   int waiting_ = 0;

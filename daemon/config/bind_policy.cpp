@@ -10,7 +10,7 @@ namespace hydroprint::daemon {
 namespace {
 
 // Returns key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
-std::optional<std::string> exposed_door(const Config& config) {
+std::optional<std::string> exposed_endpoint(const Config& config) {
   for (const auto& [name, address] : {std::pair("server.grpc (--grpc) ", config.server_grpc),
                                       std::pair("server.http (--http) ", config.server_http)}) {
     const auto endpoint = parse_endpoint(address);
@@ -21,7 +21,7 @@ std::optional<std::string> exposed_door(const Config& config) {
 
 }  // namespace
 
-bool is_exposed(const Config& config) { return exposed_door(config).has_value(); }
+bool is_exposed(const Config& config) { return exposed_endpoint(config).has_value(); }
 
 Status check_exposure(const Config& config) {
   const bool has_certificate = !config.server_tls_certificate.empty();
@@ -34,10 +34,10 @@ Status check_exposure(const Config& config) {
                           "(--tls-key) is not; TLS needs both",
                 "CONFIG_INVALID");
   }
-  const auto door = exposed_door(config);
-  if (!door || has_certificate) return {};
+  const auto exposed_address = exposed_endpoint(config);
+  if (!exposed_address || has_certificate) return {};
   return fail(Code::kInvalidArgument,
-              *door +
+              *exposed_address +
                   " is beyond loopback, which requires TLS; name a certificate and its key with "
                   "--tls-certificate FILE --tls-key FILE (deploy/README.md explains how to "
                   "get them), or use 127.0.0.1 or [::1]",
@@ -45,13 +45,13 @@ Status check_exposure(const Config& config) {
 }
 
 Status check_admin(const Config& config, auth::Accounts& accounts) {
-  const auto door = exposed_door(config);
-  if (!door) return {};
+  const auto exposed_address = exposed_endpoint(config);
+  if (!exposed_address) return {};
   HP_ASSIGN_OR_RETURN(const bool has_admin, accounts.has_admin_who_can_sign_in());
   if (has_admin) return {};
   return fail(
       Code::kFailedPrecondition,
-      *door +
+      *exposed_address +
           " is beyond loopback, but there is no admin yet who can sign in; start the daemon once "
           "with --first-admin NAME, and set a password at the link that it prints",
       "SIGN_IN_NEEDED");

@@ -21,23 +21,23 @@ constexpr std::chrono::seconds kShutdownPatience{5};
 
 }  // namespace
 
-DipExecutor::DipExecutor(const DipSurroundings& surroundings)
-    : around_(surroundings), thread_([this] { loop(); }) {}
+DipExecutor::DipExecutor(const DipDependencies& dependencies)
+    : dependencies_(dependencies), thread_([this] { loop(); }) {}
 
 DipExecutor::~DipExecutor() { stop(); }
 
 Result<DipExecutor::Order> DipExecutor::order_of(const JobRequest& request) const {
   const v1::DipSpec& spec = request.job.dip();
-  HP_ASSIGN_OR_RETURN(const Lease lease, around_.gateway.leases().require(request.lease_id));
-  HP_ASSIGN_OR_RETURN(dip::Plan plan, plan_of(spec, around_.jobs, around_.layout));
-  HP_RETURN_IF_ERROR(
-      go_by_calibration(spec, around_.jobs, around_.calibrations, around_.places.place(), plan));
+  HP_ASSIGN_OR_RETURN(const Lease lease, dependencies_.gateway.leases().require(request.lease_id));
+  HP_ASSIGN_OR_RETURN(dip::Plan plan, plan_of(spec, dependencies_.jobs, dependencies_.layout));
+  HP_RETURN_IF_ERROR(go_by_calibration(spec, dependencies_.jobs, dependencies_.calibrations,
+                                       dependencies_.places.place(), plan));
   return Order{std::move(plan), lease.holder};
 }
 
 Status DipExecutor::check_rig(const dip::Plan& plan) const {
-  HP_RETURN_IF_ERROR(around_.gateway.check_at_rest());
-  const rig::Controller& rig = *around_.gateway.controller();
+  HP_RETURN_IF_ERROR(dependencies_.gateway.check_at_rest());
+  const rig::Controller& rig = *dependencies_.gateway.controller();
   HP_RETURN_IF_ERROR(dip::check(plan, rig.config()));
   if (!plan.clocks.skip) return {};
   if (!rig.profile().is_virtual) {
@@ -58,7 +58,7 @@ Result<Job> DipExecutor::check(const JobRequest& request) {
   Job job;
   job.dip_status = first_dip_status(order.plan);
   job.state = JobState::kWaitingForOperator;
-  job.made = request.made;
+  job.definition = request.definition;
   return job;
 }
 
@@ -67,29 +67,30 @@ Result<Job> DipExecutor::create(const JobRequest& request) {
   const dip::Plan& plan = order.plan;
   const std::lock_guard lock(mutex_);
   if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
-  HP_ASSIGN_OR_RETURN(auto earlier, around_.jobs.repeated(request.made.owner, request.key));
+  HP_ASSIGN_OR_RETURN(auto earlier,
+                      dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
   HP_RETURN_IF_ERROR(check_rig(plan));
-  NewJob made = request.made;
+  NewJob made = request.definition;
   made.dip_status = first_dip_status(plan);
-  HP_ASSIGN_OR_RETURN(const Job job, around_.jobs.create(made, request.key));
-  if (const Status folder = make_folder(around_.layout.dip(job.id)); !folder) {
+  HP_ASSIGN_OR_RETURN(const Job job, dependencies_.jobs.create(made, request.key));
+  if (const Status folder = make_folder(dependencies_.layout.dip(job.id)); !folder) {
     log(LogLevel::kError, "record_lost", {{"job", job.id}, {"message", folder.error().message}});
   }
-  around_.gateway.set_dip(job.id);
-  around_.gateway.claim(plan.clocks.skip);
-  run_ = std::make_unique<DipSession>(around_, job, plan, order.holder);
+  dependencies_.gateway.set_dip(job.id);
+  dependencies_.gateway.claim(plan.clocks.skip);
+  run_ = std::make_unique<DipSession>(dependencies_, job, plan, order.holder);
   wake();
   return job;
 }
 
 Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::string& holder) {
   const std::lock_guard lock(mutex_);
-  HP_ASSIGN_OR_RETURN(const Job job, around_.jobs.get(id));
+  HP_ASSIGN_OR_RETURN(const Job job, dependencies_.jobs.get(id));
   if (run_ && run_->job() == id) {
     HP_RETURN_IF_ERROR(run_->confirm(step, holder));
     wake();
-    return around_.jobs.get(id);
+    return dependencies_.jobs.get(id);
   }
   v1::DipStatus reached;
   reached.ParseFromString(job.dip_status);
@@ -103,10 +104,10 @@ Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::str
 
 Result<Job> DipExecutor::cancel(std::int64_t id) {
   // Stops the axis before any operation that may block.
-  if (around_.gateway.dip() == id) around_.gateway.controller()->stop();
+  if (dependencies_.gateway.dip() == id) dependencies_.gateway.controller()->stop();
   const std::lock_guard lock(mutex_);
   if (run_ && run_->job() == id) run_->break_off(dip::Event::Kind::kCancel);
-  auto job = around_.jobs.cancel(id);
+  auto job = dependencies_.jobs.cancel(id);
   wake();
   return job;
 }
@@ -126,8 +127,8 @@ void DipExecutor::loop() {
       woken_.wait(lock, news);
     }
     if (!run_ || !run_->step()) continue;
-    around_.gateway.claim(false);
-    around_.gateway.set_dip(0);
+    dependencies_.gateway.claim(false);
+    dependencies_.gateway.set_dip(0);
     run_.reset();
   }
 }
@@ -142,7 +143,7 @@ void DipExecutor::stop() {
     wake();
   }
   thread_.join();
-  if (rig::Controller* const rig = around_.gateway.controller()) rig->stop();
+  if (rig::Controller* const rig = dependencies_.gateway.controller()) rig->stop();
 }
 
 }  // namespace hydroprint::daemon

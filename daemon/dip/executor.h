@@ -14,8 +14,8 @@ namespace hydroprint::daemon {
 /// Carries out dips, one at a time, in its own thread. Thread-safe.
 class DipExecutor final : public JobExecutor {
  public:
-  /// @param surroundings  must outlive this object
-  explicit DipExecutor(const DipSurroundings& surroundings);
+  /// @param dependencies  must outlive this object
+  explicit DipExecutor(const DipDependencies& dependencies);
   /// Calls stop() if needed.
   ~DipExecutor() override;
 
@@ -43,7 +43,7 @@ class DipExecutor final : public JobExecutor {
   void loop();
   void wake();  // needs mutex_
 
-  DipSurroundings around_;
+  DipDependencies dependencies_;
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   bool wake_ = false;

@@ -109,9 +109,9 @@ double planned_s(Step step, const Plan& plan, const std::optional<Ways>& ways,
   }
 }
 
-Outlook outlook(const Stand& stand, double time_s, const Plan& plan,
-                const std::optional<Ways>& ways, double acceleration_mm_per_s2) {
-  Outlook out;
+ProgressEstimate estimate_progress(const Stand& stand, double time_s, const Plan& plan,
+                                   const std::optional<Ways>& ways, double acceleration_mm_per_s2) {
+  ProgressEstimate out;
   double all_s = 0, done_s = 0;
   for (int i = 1; i <= kSteps; ++i) {
     const auto step = static_cast<Step>(i);

@@ -66,12 +66,13 @@ struct Ways {
                                double acceleration_mm_per_s2);
 
 /// Progress of a dip, and its earliest end.
-struct Outlook {
+struct ProgressEstimate {
   double fraction = 0;       ///< progress of the whole dip, [0, 1]
   double step_fraction = 0;  ///< progress of the step, [0, 1]
   double remaining_s = 0;    ///< time left if the operator confirms without delay
 };
-[[nodiscard]] Outlook outlook(const Stand& stand, double time_s, const Plan& plan,
-                              const std::optional<Ways>& ways, double acceleration_mm_per_s2);
+[[nodiscard]] ProgressEstimate estimate_progress(const Stand& stand, double time_s,
+                                                 const Plan& plan, const std::optional<Ways>& ways,
+                                                 double acceleration_mm_per_s2);
 
 }  // namespace hydroprint::dip

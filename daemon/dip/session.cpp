@@ -74,13 +74,13 @@ std::string first_dip_status(const dip::Plan& plan) {
   return out.SerializeAsString();
 }
 
-DipSession::DipSession(const DipSurroundings& surroundings, const Job& job, const dip::Plan& plan,
+DipSession::DipSession(const DipDependencies& dependencies, const Job& job, const dip::Plan& plan,
                        const std::string& holder)
-    : around_(surroundings),
+    : dependencies_(dependencies),
       job_(job.id),
       begun_(SteadyClock::now()),
-      begun_ms_(around_.clock()),
-      log_(around_.layout.dip(job.id), begun_) {
+      begun_ms_(dependencies_.clock()),
+      log_(dependencies_.layout.dip(job.id), begun_) {
   facts_.job = job_name(job.id);
   facts_.create_time = time_text(job.create_ms);
   facts_.drive = rig().profile().name;
@@ -106,9 +106,9 @@ double DipSession::acceleration() const { return rig().profile().acceleration_mm
 Status DipSession::check_confirm(Step step) const {
   const bool takes_position = step == Step::kLoadObject || step == Step::kFindContact;
   if (!takes_position || step != stand_.step) return {};
-  HP_RETURN_IF_ERROR(around_.gateway.check_at_rest());
+  HP_RETURN_IF_ERROR(dependencies_.gateway.check_at_rest());
   const bool takes_measured = step == Step::kFindContact && facts_.plan.contact_mm;
-  if (!takes_measured || around_.places.place().homings == facts_.plan.homings) return {};
+  if (!takes_measured || dependencies_.places.place().homings == facts_.plan.homings) return {};
   return tl::unexpected(Error{Code::kFailedPrecondition,
                               fmt::format("the rig has been homed since {} was made, so first "
                                           "contact is unknown; cancel this dip and calibrate again",
@@ -158,16 +158,16 @@ Status DipSession::act(dip::Action action, const dip::Stand& next) {
           const dip::Ways ways,
           dip::ways_from(plan, *next.contact_mm, *next.loaded_mm, rig().config(), rig().profile()));
       const rig::Leg leg = dip::rise(plan, ways);
-      around_.gateway.claim(true);
+      dependencies_.gateway.claim(true);
       const Status taken = order(rig().move_to(leg.target_mm, leg.speed_mm_per_s));
-      if (!taken) around_.gateway.claim(plan.clocks.skip);
+      if (!taken) dependencies_.gateway.claim(plan.clocks.skip);
       HP_RETURN_IF_ERROR(taken);
       facts_.ways = ways;
       return {};
     }
     case dip::Action::kDip:
       HP_RETURN_IF_ERROR(order(rig().dip(dip::legs(plan, *facts_.ways))));
-      around_.places.note_dip();
+      dependencies_.places.note_dip();
       return {};
   }
   return {};
@@ -186,7 +186,7 @@ void DipSession::adopt(const dip::Stand& next) {
     const double ago_s = seconds_at(SteadyClock::now()) - *next.sprayed_s;
     facts_.warnings.push_back(
         {"film_late", dip::late_words(ago_s, facts_.plan.clocks), std::string(name(next.step))});
-    tell(facts_.warnings.back().message);
+    publish(facts_.warnings.back().message);
   }
   if (next.step != before.step) {
     // Updates the warning with the final delay.
@@ -195,10 +195,10 @@ void DipSession::adopt(const dip::Stand& next) {
       facts_.warnings.back().message = dip::late_words(ago_s, facts_.plan.clocks);
     }
     note_step(next);
-    tell(dip::instruction(next.step, facts_.plan));
+    publish(dip::instruction(next.step, facts_.plan));
   }
   if (next.ending != Ending::kNone && before.ending == Ending::kNone) {
-    around_.gateway.claim(false);
+    dependencies_.gateway.claim(false);
     facts_.steps.back().end_s = next.ending_s;
   }
 }
@@ -307,11 +307,11 @@ bool DipSession::step() {
 }
 
 Progress DipSession::progress() const {
-  const dip::Outlook outlook = dip::outlook(stand_, seconds_at(SteadyClock::now()), facts_.plan,
-                                            facts_.ways, acceleration());
-  const auto remaining_ms = static_cast<std::int64_t>(1000 * outlook.remaining_s);
-  return {outlook.fraction, std::string(name(stand_.step)), outlook.step_fraction,
-          around_.clock() + remaining_ms};
+  const dip::ProgressEstimate estimate = dip::estimate_progress(
+      stand_, seconds_at(SteadyClock::now()), facts_.plan, facts_.ways, acceleration());
+  const auto remaining_ms = static_cast<std::int64_t>(1000 * estimate.remaining_s);
+  return {estimate.fraction, std::string(name(stand_.step)), estimate.step_fraction,
+          dependencies_.clock() + remaining_ms};
 }
 
 void DipSession::report_progress() {
@@ -319,7 +319,7 @@ void DipSession::report_progress() {
   if (job_state(stand_) != JobState::kRunning || stand_.ending != Ending::kNone) return;
   if (now < next_progress_) return;
   next_progress_ = now + kProgressInterval;
-  log_failure("progress_lost", job_, around_.jobs.report(job_, progress()));
+  log_failure("progress_lost", job_, dependencies_.jobs.report(job_, progress()));
 }
 
 std::string DipSession::words() const {
@@ -345,10 +345,11 @@ std::string DipSession::status() const {
 }
 
 /// Stores the state of the dip, with a message for its events.
-void DipSession::tell(const std::string& message) {
+void DipSession::publish(const std::string& message) {
   if (stand_.ending != Ending::kNone) return;
-  log_failure("dip_step_lost", job_,
-              around_.device_jobs.advance(job_, job_state(stand_), status(), progress(), message));
+  log_failure(
+      "dip_step_lost", job_,
+      dependencies_.device_jobs.advance(job_, job_state(stand_), status(), progress(), message));
   log(LogLevel::kInfo, "dip_step",
       {{"job", job_}, {"step", name(stand_.step)}, {"message", message}});
   write_record();
@@ -357,7 +358,7 @@ void DipSession::tell(const std::string& message) {
 void DipSession::write_record() {
   facts_.stand = stand_;
   note_record(log_.flush());
-  note_record(dip::write_report(around_.layout.dip(job_), dip::report_json(facts_)));
+  note_record(dip::write_report(dependencies_.layout.dip(job_), dip::report_json(facts_)));
 }
 
 /// Logs only the first failed write of the record; the dip continues.
@@ -384,10 +385,11 @@ std::string DipSession::end_words() const {
 /// If the record cannot be stored, the dip ends without it, because its outcome is more important.
 std::vector<Artifact> DipSession::publish_record() {
   write_record();
-  auto published = publish_artifacts(around_.layout.dip(job_), around_.layout.artifacts(job_));
+  auto published =
+      publish_artifacts(dependencies_.layout.dip(job_), dependencies_.layout.artifacts(job_));
   if (published) return std::move(*published);
   log(LogLevel::kError, "record_lost", {{"job", job_}, {"message", published.error().message}});
-  discard(around_.layout.dip(job_));
+  discard(dependencies_.layout.dip(job_));
   return {};
 }
 
@@ -408,7 +410,8 @@ bool DipSession::finish() {
     }
     record_ = publish_record();
   }
-  const auto ended = around_.device_jobs.end(job_, state, failure, status(), *record_, end_words());
+  const auto ended =
+      dependencies_.device_jobs.end(job_, state, failure, status(), *record_, end_words());
   if (!ended) {
     next_end_ = SteadyClock::now() + kStoreAgainAfter;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});

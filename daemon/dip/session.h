@@ -19,7 +19,7 @@
 namespace hydroprint::daemon {
 
 /// The objects that dips use.
-struct DipSurroundings {
+struct DipDependencies {
   RigGateway& gateway;
   RigReference& places;
   JobStore& jobs;
@@ -37,7 +37,7 @@ struct DipSurroundings {
 class DipSession {
  public:
   /// @param job  just created; the rig is configured, homed and at rest
-  DipSession(const DipSurroundings& surroundings, const Job& job, const dip::Plan& plan,
+  DipSession(const DipDependencies& dependencies, const Job& job, const dip::Plan& plan,
              const std::string& holder);
 
   [[nodiscard]] std::int64_t job() const { return job_; }
@@ -57,7 +57,7 @@ class DipSession {
  private:
   using SteadyClock = std::chrono::steady_clock;
 
-  [[nodiscard]] rig::Controller& rig() const { return *around_.gateway.controller(); }
+  [[nodiscard]] rig::Controller& rig() const { return *dependencies_.gateway.controller(); }
   [[nodiscard]] double seconds_at(rig::TimePoint time) const;
   [[nodiscard]] std::int64_t wall_ms(double seconds) const;
   [[nodiscard]] double acceleration() const;
@@ -75,7 +75,7 @@ class DipSession {
   void look_at_rest();
   void take_samples();
 
-  void tell(const std::string& message);
+  void publish(const std::string& message);
   void report_progress();
   [[nodiscard]] Progress progress() const;
   [[nodiscard]] std::string words() const;
@@ -88,7 +88,7 @@ class DipSession {
   [[nodiscard]] std::vector<Artifact> publish_record();
   [[nodiscard]] std::string end_words() const;
 
-  DipSurroundings around_;
+  DipDependencies dependencies_;
   std::int64_t job_;
   dip::Stand stand_;
   dip::Facts facts_;

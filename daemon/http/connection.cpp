@@ -10,30 +10,30 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kLinger{1000};
-constexpr std::size_t kMostLingering_bytes = 1 << 20;
+constexpr std::size_t kMaxLinger_bytes = 1 << 20;
 
 // Reads and discards the rest of the client's data. Otherwise the kernel would reset the connection
 // and discard a response that the client has not yet read.
-Task<void> say_goodbye(Socket& socket) {
+Task<void> close_gracefully(Socket& socket) {
   socket.end_writing();
   std::string dropped(16 << 10, '\0');
-  for (std::size_t taken = 0; taken < kMostLingering_bytes;) {
-    const Socket::Got got = co_await socket.read(dropped.data(), dropped.size(), kLinger);
+  for (std::size_t taken = 0; taken < kMaxLinger_bytes;) {
+    const Socket::ReadResult got = co_await socket.read(dropped.data(), dropped.size(), kLinger);
     if (got.bytes == 0) break;
     taken += got.bytes;
   }
   socket.close();
 }
 
-Response refused_head(Exchange::Begun begun) {
-  switch (begun) {
-    case Exchange::Begun::kHeaderTooLarge:
+Response refused_head(Exchange::BeginResult begin_result) {
+  switch (begin_result) {
+    case Exchange::BeginResult::kHeaderTooLarge:
       return refusal({Code::kOutOfRange,
                       "the header is too long; send fewer or shorter header fields",
                       "HEADER_TOO_LARGE",
                       {}},
                      431);
-    case Exchange::Begun::kTimedOut:
+    case Exchange::BeginResult::kTimedOut:
       return refusal({Code::kCancelled,
                       "the request did not arrive in time; send it again",
                       "REQUEST_TIMED_OUT",
@@ -47,7 +47,7 @@ Response refused_head(Exchange::Begun begun) {
 }
 
 // Sends the last response on the connection.
-Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
+Task<bool> send_last(Socket& socket, Response response, milliseconds timeout) {
   const std::string text =
       head_text(response, Head{}, {response.body.size(), false, socket.is_secure()}) +
       response.body;
@@ -58,13 +58,13 @@ Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
 Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socket,
                      std::string& buffered, bool is_first) {
   Exchange exchange(socket, server.options.limits, buffered);
-  const Exchange::Begun begun = co_await exchange.begin_request(is_first);
-  if (begun == Exchange::Begun::kGone) co_return false;
-  if (begun != Exchange::Begun::kYes) {
+  const Exchange::BeginResult begin_result = co_await exchange.begin_request(is_first);
+  if (begin_result == Exchange::BeginResult::kGone) co_return false;
+  if (begin_result != Exchange::BeginResult::kYes) {
     // The start of the next request is unknown.
-    Response response = refused_head(begun);
+    Response response = refused_head(begin_result);
     server.metrics.count_request("unreadable", "", response.status);
-    co_await say_last(*socket, std::move(response), server.options.limits.write_time);
+    co_await send_last(*socket, std::move(response), server.options.limits.write_time);
     co_return false;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -76,17 +76,17 @@ Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socke
 
 // Performs the TLS handshake. A client that does not use TLS gets an error in plain HTTP.
 Task<bool> open_connection(Socket& socket, milliseconds timeout) {
-  const Socket::Opened opened = co_await socket.opened(timeout);
-  if (opened == Socket::Opened::kPlainHttp) {
+  const Socket::OpenResult open_result = co_await socket.opened(timeout);
+  if (open_result == Socket::OpenResult::kPlainHttp) {
     Response response = refusal({Code::kInvalidArgument,
                                  "this port speaks TLS; write https:// in place of http://",
                                  "REQUEST_MALFORMED",
                                  {}});
-    const bool is_said = co_await say_last(socket, std::move(response), kLinger);
-    if (is_said) co_await say_goodbye(socket);
+    const bool is_sent = co_await send_last(socket, std::move(response), kLinger);
+    if (is_sent) co_await close_gracefully(socket);
   }
-  if (opened != Socket::Opened::kYes) socket.close();
-  co_return opened == Socket::Opened::kYes;
+  if (open_result != Socket::OpenResult::kYes) socket.close();
+  co_return open_result == Socket::OpenResult::kYes;
 }
 
 Task<void> serve_all(ServerContext& server, std::shared_ptr<Socket> socket) {
@@ -94,10 +94,10 @@ Task<void> serve_all(ServerContext& server, std::shared_ptr<Socket> socket) {
   if (!is_open) co_return;
   std::string buffered;
   for (bool is_first = true;; is_first = false) {
-    const bool goes_on = co_await serve_one(server, socket, buffered, is_first);
-    if (!goes_on) break;
+    const bool keep_alive = co_await serve_one(server, socket, buffered, is_first);
+    if (!keep_alive) break;
   }
-  if (!socket->is_closed()) co_await say_goodbye(*socket);
+  if (!socket->is_closed()) co_await close_gracefully(*socket);
 }
 
 Task<void> say_full(Socket& socket) {
@@ -108,8 +108,8 @@ Task<void> say_full(Socket& socket) {
                                "CONNECTIONS_FULL",
                                {}});
   response.fields.set("Retry-After", "5");
-  const bool is_said = co_await say_last(socket, std::move(response), kLinger);
-  if (is_said) co_await say_goodbye(socket);
+  const bool is_sent = co_await send_last(socket, std::move(response), kLinger);
+  if (is_sent) co_await close_gracefully(socket);
 }
 
 }  // namespace

@@ -24,13 +24,13 @@ Result<v1::Artifact> artifact_of(const Reply& reply) {
 }
 
 // The response headers and the range that a request asks for.
-struct Wanted {
+struct DownloadPlan {
   ByteRange range;
   Response response;
 };
 
-Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
-  Wanted out;
+DownloadPlan plan_download(const Head& head, const v1::Artifact& artifact, bool is_inline) {
+  DownloadPlan out;
   const std::string tag = '"' + artifact.sha256() + '"';
   const std::string file = artifact.name().substr(artifact.name().rfind('/') + 1);
   const bool is_shown = is_inline && may_be_shown(artifact.media_type());
@@ -72,28 +72,28 @@ class Download {
   Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
       : exchange_(exchange), stream_(server.rpc.stream(kDownload, metadata)) {}
 
-  Task<void> run(const std::string& name, Wanted wanted) {
+  Task<void> run(const std::string& name, DownloadPlan plan) {
     v1::DownloadArtifactRequest request;
     request.set_name(name);
-    request.set_offset(wanted.range.begin);
+    request.set_offset(plan.range.begin);
     AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(request.SerializeAsString(), true, written.receiver());
     co_await written.wait(kDiskPatience);
 
-    std::int64_t left = wanted.range.end - wanted.range.begin;
+    std::int64_t left = plan.range.end - plan.range.begin;
     std::optional<std::string> piece = co_await next();
     if (!piece) {
       co_await refuse_all();
       co_return;
     }
-    bool goes_on = co_await exchange_.begin_answer(std::move(wanted.response), left);
-    while (goes_on && left > 0 && piece) {
+    bool is_open = co_await exchange_.begin_answer(std::move(plan.response), left);
+    while (is_open && left > 0 && piece) {
       if (static_cast<std::int64_t>(piece->size()) > left) {
         piece->resize(static_cast<std::size_t>(left));
       }
       left -= static_cast<std::int64_t>(piece->size());
-      goes_on = co_await exchange_.write(std::move(*piece));
-      if (goes_on && left > 0) piece = co_await next();
+      is_open = co_await exchange_.write(std::move(*piece));
+      if (is_open && left > 0) piece = co_await next();
     }
     if (left > 0) exchange_.break_off();
   }
@@ -101,22 +101,23 @@ class Download {
  private:
   // Reads the next piece; nullopt if the call has ended.
   Task<std::optional<std::string>> next() {
-    AsyncValue<std::optional<std::string>> coming(exchange_.shared_socket());
-    stream_->read(coming.receiver());
-    const bool came = co_await coming.wait(kDiskPatience);
+    AsyncValue<std::optional<std::string>> async_value(exchange_.shared_socket());
+    stream_->read(async_value.receiver());
+    const bool in_time = co_await async_value.wait(kDiskPatience);
     v1::DownloadArtifactResponse message;
     std::optional<std::string> bytes;
-    if (came) bytes = coming.take();
+    if (in_time) bytes = async_value.take();
     if (!bytes || !message.ParseFromString(*bytes)) co_return std::nullopt;
     co_return std::move(*message.mutable_data());
   }
 
   Task<void> refuse_all() {
-    AsyncValue<Reply> coming(exchange_.shared_socket());
+    AsyncValue<Reply> async_value(exchange_.shared_socket());
     stream_->cancel();
-    stream_->finish(coming.receiver());
-    const bool came = co_await coming.wait(kDiskPatience);
-    const Reply reply = came ? coming.take() : Reply{4, "the store did not answer in time", "", ""};
+    stream_->finish(async_value.receiver());
+    const bool in_time = co_await async_value.wait(kDiskPatience);
+    const Reply reply =
+        in_time ? async_value.take() : Reply{4, "the store did not answer in time", "", ""};
     co_await exchange_.send(refusal(reply));
   }
 
@@ -163,16 +164,16 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
     co_await exchange.send(std::move(refused));
     co_return route;
   }
-  Wanted asked = wanted(head, *artifact, target.is_inline);
-  const bool has_bytes = asked.response.status == 200 || asked.response.status == 206;
+  DownloadPlan plan = plan_download(head, *artifact, target.is_inline);
+  const bool has_bytes = plan.response.status == 200 || plan.response.status == 206;
   if (head.method == "HEAD" && has_bytes) {
-    const std::int64_t length = asked.range.end - asked.range.begin;
-    co_await exchange.begin_answer(std::move(asked.response), length);
+    const std::int64_t length = plan.range.end - plan.range.begin;
+    co_await exchange.begin_answer(std::move(plan.response), length);
   } else if (!has_bytes) {
-    co_await exchange.send(std::move(asked.response));
+    co_await exchange.send(std::move(plan.response));
   } else {
     Download download(server, exchange, *metadata);
-    co_await download.run(target.name, std::move(asked));
+    co_await download.run(target.name, std::move(plan));
   }
   co_return route;
 }

@@ -85,13 +85,13 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   static std::shared_ptr<Reactor> begin(grpc::GenericStub& stub, std::shared_ptr<Calls> calls,
                                         const std::string& method,
                                         const InProcessChannel::Metadata& metadata) {
-    auto made = std::make_shared<Reactor>(std::move(calls));
-    made->itself_ = made;
-    fill(made->context_, metadata);
-    stub.PrepareBidiStreamingCall(&made->context_, method, {}, made.get());
-    made->AddHold();  // until finish(), because reads and writes start outside gRPC's callbacks
-    made->StartCall();
-    return made;
+    auto reactor = std::make_shared<Reactor>(std::move(calls));
+    reactor->itself_ = reactor;
+    fill(reactor->context_, metadata);
+    stub.PrepareBidiStreamingCall(&reactor->context_, method, {}, reactor.get());
+    reactor->AddHold();  // until finish(), because reads and writes start outside gRPC's callbacks
+    reactor->StartCall();
+    return reactor;
   }
 
   void read(std::function<void(std::optional<std::string>)> done) {

@@ -98,14 +98,14 @@ Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, E
 
 Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call request,
                  InProcessChannel::Metadata metadata) {
-  AsyncValue<Reply> coming(exchange.shared_socket());
+  AsyncValue<Reply> async_value(exchange.shared_socket());
   const milliseconds patience = server.options.limits.call_time;
   const auto under_way =
-      server.rpc.unary(request.method, request.request, metadata, patience, coming.receiver());
+      server.rpc.unary(request.method, request.request, metadata, patience, async_value.receiver());
   if (!request.stops_motion) exchange.socket().watch([under_way] { under_way->cancel(); });
-  const bool came = co_await coming.wait(patience + kGrace);
+  const bool in_time = co_await async_value.wait(patience + kGrace);
   exchange.socket().unwatch();
-  if (came) co_return coming.take();
+  if (in_time) co_return async_value.take();
   under_way->cancel();
   co_return Reply{4, "the daemon did not answer in time; check whether the request was carried out",
                   "", ""};

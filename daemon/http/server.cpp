@@ -9,7 +9,7 @@ namespace {
 
 constexpr milliseconds kStopPatience{2000};
 // Maximum of simultaneous replies; further connections are closed without a reply.
-constexpr int kMostTurnedAway = 64;
+constexpr int kMaxRejected = 64;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ struct Server::Impl {
 
   void take(const std::shared_ptr<Socket>& socket) const {
     const int open = server->connections.count();
-    const bool is_beyond = open >= server->options.limits.connections + kMostTurnedAway;
+    const bool is_beyond = open >= server->options.limits.connections + kMaxRejected;
     if (is_beyond) server->metrics.count_refused_connection();
     if (is_beyond || !server->connections.add(socket)) return socket->close();
     open < server->options.limits.connections ? serve(*server, socket) : turn_away(*server, socket);
@@ -33,8 +33,8 @@ Server::~Server() { stop(); }
 Result<std::unique_ptr<Server>> Server::start(const Options& options,
                                               std::shared_ptr<grpc::Channel> channel,
                                               Sources sources) {
-  std::unique_ptr<Server> made(new Server);
-  Impl& impl = *made->impl_;
+  std::unique_ptr<Server> server(new Server);
+  Impl& impl = *server->impl_;
   HP_ASSIGN_OR_RETURN(impl.listener,
                       TcpListener::listen(options.host, options.port, options.identity));
   HP_ASSIGN_OR_RETURN(rest::Transcoder transcoder, rest::Transcoder::make());
@@ -50,7 +50,7 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options,
                                       {},
                                       {}});
   impl.listener->start([&impl](const std::shared_ptr<Socket>& socket) { impl.take(socket); });
-  return made;
+  return server;
 }
 
 int Server::port() const { return impl_->listener->port(); }

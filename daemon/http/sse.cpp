@@ -35,7 +35,7 @@ class EventStream {
       *gone = true;
       socket->ring();
     });
-    for (bool goes_on = true; goes_on;) goes_on = co_await pass_one_on();
+    for (bool is_open = true; is_open;) is_open = co_await forward_event();
     // Unwatches before end(), since unwatch() must not be called during a write.
     exchange_.socket().unwatch();
     if (*gone_) exchange_.break_off();
@@ -50,12 +50,12 @@ class EventStream {
   }
 
   // Passes on one message; false at the end.
-  Task<bool> pass_one_on() {
+  Task<bool> forward_event() {
     stream_->read(message_.receiver());
     for (;;) {
-      const bool came = co_await wait_for_message();
+      const bool in_time = co_await wait_for_message();
       if (*gone_) co_return false;
-      if (came) break;
+      if (in_time) break;
       const bool lives = co_await send(": ping\n\n");
       if (!lives) co_return false;
     }
@@ -95,10 +95,11 @@ class EventStream {
 
   // An error before the first message is sent as an ordinary error response.
   Task<void> end() {
-    AsyncValue<Reply> coming(exchange_.shared_socket());
-    stream_->finish(coming.receiver());
-    const bool came = co_await coming.wait(kEndPatience);
-    const Reply reply = came ? coming.take() : Reply{14, "the stream ended unexpectedly", "", ""};
+    AsyncValue<Reply> async_value(exchange_.shared_socket());
+    stream_->finish(async_value.receiver());
+    const bool in_time = co_await async_value.wait(kEndPatience);
+    const Reply reply =
+        in_time ? async_value.take() : Reply{14, "the stream ended unexpectedly", "", ""};
     if (!reply.ok() && exchange_.status() == 0) {
       co_await exchange_.send(refusal(reply));
       co_return;

@@ -8,30 +8,30 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kSourcePatience{5000};
-constexpr int kMostAsides = 100;
+constexpr int kMaxBlockingTasks = 100;
 
 /// Runs a blocking function on another thread; nullopt on timeout, for example if the disk does not
 /// respond.
 template <class T>
-Task<std::optional<T>> ask_aside(ServerContext& server, Exchange& exchange,
-                                 std::function<T()> source) {
-  if (server.asides >= kMostAsides) co_return std::nullopt;
-  ++server.asides;
-  AsyncValue<T> coming(exchange.shared_socket());
-  server.listener.aside([&server, source, receive = coming.receiver()] {
+Task<std::optional<T>> fetch_blocking(ServerContext& server, Exchange& exchange,
+                                      std::function<T()> source) {
+  if (server.blocking_tasks >= kMaxBlockingTasks) co_return std::nullopt;
+  ++server.blocking_tasks;
+  AsyncValue<T> async_value(exchange.shared_socket());
+  server.listener.run_blocking([&server, source, receive = async_value.receiver()] {
     receive(source());
-    --server.asides;
+    --server.blocking_tasks;
   });
-  const bool came = co_await coming.wait(kSourcePatience);
-  if (!came) co_return std::nullopt;
-  co_return coming.take();
+  const bool in_time = co_await async_value.wait(kSourcePatience);
+  if (!in_time) co_return std::nullopt;
+  co_return async_value.take();
 }
 
 }  // namespace
 
 Task<std::string> answer_health(ServerContext& server, Exchange& exchange) {
   const std::optional<Health> health =
-      co_await ask_aside<Health>(server, exchange, server.sources.health);
+      co_await fetch_blocking<Health>(server, exchange, server.sources.health);
   if (!health) {
     co_await exchange.send(json_response(503, R"({"status":"bad","store":"does not answer"})"));
   } else {
@@ -42,7 +42,7 @@ Task<std::string> answer_health(ServerContext& server, Exchange& exchange) {
 
 Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange) {
   std::optional<std::string> text =
-      co_await ask_aside<std::string>(server, exchange, server.sources.metrics);
+      co_await fetch_blocking<std::string>(server, exchange, server.sources.metrics);
   // If the daemon's metrics are not available, the server's own are still sent.
   Response response =
       text_response(200, text.value_or("") + server.metrics.text(server.connections.count()));

@@ -55,24 +55,24 @@ class Passing {
     chunk.set_data(std::move(bytes));
     AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(chunk.SerializeAsString(), false, written.receiver());
-    const bool came = co_await written.wait(kStorePatience);
-    co_return came&& written.take();
+    const bool in_time = co_await written.wait(kStorePatience);
+    co_return in_time&& written.take();
   }
 
   Task<Reply> finish() {
     const Reply late{4, "the store did not answer in time", "", ""};
     AsyncValue<std::optional<std::string>> response(exchange_.shared_socket());
-    AsyncValue<Reply> coming(exchange_.shared_socket());
+    AsyncValue<Reply> async_value(exchange_.shared_socket());
     // This order is required. Within a process, gRPC drops a response that is not being read when
     // the status arrives, and then the call never ends for the store.
     stream_->read(response.receiver());
     stream_->end_writing();
     const bool answered = co_await response.wait(kStorePatience);
     if (!answered) co_return late;
-    stream_->finish(coming.receiver());
-    const bool came = co_await coming.wait(kStorePatience);
-    if (!came) co_return late;
-    Reply reply = coming.take();
+    stream_->finish(async_value.receiver());
+    const bool in_time = co_await async_value.wait(kStorePatience);
+    if (!in_time) co_return late;
+    Reply reply = async_value.take();
     reply.response = response.take().value_or("");
     co_return reply;
   }

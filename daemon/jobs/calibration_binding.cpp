@@ -51,14 +51,14 @@ std::vector<Staleness> staleness(const RigPlace& then, const RigPlace& now) {
 
 v1::Calibration to_message(const Calibration& calibration, const RigPlace& now) {
   v1::Calibration out;
-  out.ParseFromString(calibration.made.body);
+  out.ParseFromString(calibration.definition.body);
   out.set_name(calibration_name(calibration.id));
-  out.set_kind(static_cast<v1::Calibration::Kind>(calibration.made.kind));
-  out.set_owner(calibration.made.owner);
+  out.set_kind(static_cast<v1::Calibration::Kind>(calibration.definition.kind));
+  out.set_owner(calibration.definition.owner);
   *out.mutable_create_time() = time_of(calibration.create_ms);
   out.set_active(calibration.active);
-  if (calibration.made.job != 0) out.set_job(job_name(calibration.made.job));
-  if (calibration.made.job != 0 && calibration.made.kind == CalibrationKind::kObject) {
+  if (calibration.definition.job != 0) out.set_job(job_name(calibration.definition.job));
+  if (calibration.definition.job != 0 && calibration.definition.kind == CalibrationKind::kObject) {
     out.set_picture(out.job() + "/artifacts/alignment.png");
   }
   if (!calibration.captured) return out;
@@ -85,7 +85,7 @@ Result<Calibration> needed_calibration(const std::string& name, const std::strin
                                        CalibrationStore& calibrations) {
   auto found = find_calibration(name, calibrations);
   if (!found && found.error().reason == "CALIBRATION_NOT_FOUND") return missing(name, field);
-  if (found && found->made.kind != CalibrationKind::kObject) {
+  if (found && found->definition.kind != CalibrationKind::kObject) {
     return invalid_field(field, "names the calibration of a camera; name one of an object");
   }
   return found;

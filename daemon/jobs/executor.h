@@ -11,8 +11,8 @@ namespace hydroprint::daemon {
 
 /// A job requested by a client, checked and with all references resolved.
 struct JobRequest {
-  NewJob made;
-  v1::Job job;  ///< with the spec as the job shows it; `made.body` serialises it
+  NewJob definition;
+  v1::Job job;  ///< with the spec as the job shows it; `definition.body` serialises it
   RequestKey key;
   std::string lease_id;
 };

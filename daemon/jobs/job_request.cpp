@@ -50,20 +50,20 @@ Result<NewJob> new_job(const JobKind& kind, const v1::Job& job, const Message& s
                        std::unique_ptr<Message> resolved) {
   HP_RETURN_IF_ERROR(check_all_fields(kind, job, *resolved));
   HP_RETURN_IF_ERROR(kind.check(*resolved));
-  NewJob made;
-  made.work.verb = kind.name();
-  HP_ASSIGN_OR_RETURN(made.work.inputs, input_files(*resolved, kind.field().name()));
-  made.threads = take_threads(*resolved);
-  HP_ASSIGN_OR_RETURN(made.work.spec, json_of(*resolved));
-  made.traits = kind.traits();
-  made.use_cache = kind.is_cacheable();
-  made.priority = job.priority();
-  made.display_name = job.display_name();
-  if (made.display_name.empty()) {
+  NewJob definition;
+  definition.work.verb = kind.name();
+  HP_ASSIGN_OR_RETURN(definition.work.inputs, input_files(*resolved, kind.field().name()));
+  definition.threads = take_threads(*resolved);
+  HP_ASSIGN_OR_RETURN(definition.work.spec, json_of(*resolved));
+  definition.traits = kind.traits();
+  definition.use_cache = kind.is_cacheable();
+  definition.priority = job.priority();
+  definition.display_name = job.display_name();
+  if (definition.display_name.empty()) {
     const std::string subject = kind.subject(shown);
-    made.display_name = subject.empty() ? kind.name() : kind.name() + " " + subject;
+    definition.display_name = subject.empty() ? kind.name() : kind.name() + " " + subject;
   }
-  return made;
+  return definition;
 }
 
 std::unique_ptr<Message> copy_of(const Message& message) {
@@ -84,8 +84,8 @@ Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
   shown.CopyFrom(*spec_of(sent));
   auto resolved = copy_of(shown);
   HP_RETURN_IF_ERROR(kind.resolve(shown, *resolved, sources));
-  HP_ASSIGN_OR_RETURN(out.made, new_job(kind, sent, shown, std::move(resolved)));
-  out.made.body = out.job.SerializeAsString();
+  HP_ASSIGN_OR_RETURN(out.definition, new_job(kind, sent, shown, std::move(resolved)));
+  out.definition.body = out.job.SerializeAsString();
   return out;
 }
 

@@ -17,9 +17,9 @@ Result<Job> earlier_job(const std::string& name, const std::string& kind, const 
                         JobStore& jobs) {
   HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(name));
   HP_ASSIGN_OR_RETURN(Job job, jobs.get(id));
-  if (job.made.work.verb != kind) {
-    return invalid_field(field,
-                         fmt::format("names a {} job; name a {} job", job.made.work.verb, kind));
+  if (job.definition.work.verb != kind) {
+    return invalid_field(
+        field, fmt::format("names a {} job; name a {} job", job.definition.work.verb, kind));
   }
   if (job.state == JobState::kSucceeded) return job;
   return tl::unexpected(
@@ -34,7 +34,7 @@ Result<EarlierSimulation> earlier_simulation(const std::string& name, const std:
   EarlierSimulation out;
   HP_ASSIGN_OR_RETURN(out.job, earlier_job(name, "simulate", field, jobs));
   v1::Job body;
-  if (!body.ParseFromString(out.job.made.body) || !body.has_simulate()) {
+  if (!body.ParseFromString(out.job.definition.body) || !body.has_simulate()) {
     return fail(Code::kInternal, name + ": its spec cannot be read", "STORE_FAILED");
   }
   out.spec = body.simulate();

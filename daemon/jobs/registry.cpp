@@ -37,7 +37,7 @@ Result<const JobKind*> kind_of(const v1::Job& job) {
 }
 
 Result<const JobKind*> kind_of(const Job& job) {
-  const std::string& name = job.made.work.verb;
+  const std::string& name = job.definition.work.verb;
   const JobKind* const kind =
       find_kind([&](const JobKind* candidate) { return candidate->name() == name; });
   if (kind != nullptr) return kind;

@@ -11,7 +11,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMeterBatch = 1000;
-constexpr std::chrono::milliseconds kMeterNap{500};
+constexpr std::chrono::milliseconds kPollInterval{500};
 constexpr int kMostStages = 300;  // workers choose the names of their stages
 
 std::string stage_of(const JobEvent& event) {
@@ -59,14 +59,14 @@ JobMetrics::~JobMetrics() {
 
 void JobMetrics::run(std::int64_t seq) {
   while (!end_) {
-    const std::uint64_t rings = jobs_.notifier().count();
+    const std::uint64_t version = jobs_.notifier().count();
     const auto events = jobs_.all_events(seq, kMeterBatch);
     if (events) {
       for (const JobEvent& event : *events) take(event);
       if (!events->empty()) seq = events->back().seq;
       if (events->size() == kMeterBatch) continue;
     }
-    jobs_.notifier().wait(rings, kMeterNap);
+    jobs_.notifier().wait(version, kPollInterval);
   }
 }
 
@@ -88,8 +88,8 @@ void JobMetrics::take(const JobEvent& event) {
 JobMetrics::OpenJob& JobMetrics::open_job(const JobEvent& event) {
   if (const auto known = open_.find(event.job); known != open_.end()) return known->second;
   const auto job = jobs_.get(event.job);
-  const OpenJob open{job ? job->made.work.verb : "deleted", stage_of(event), event.time_ms,
-                     !job || job->made.traits.computed};
+  const OpenJob open{job ? job->definition.work.verb : "deleted", stage_of(event), event.time_ms,
+                     !job || job->definition.traits.computed};
   return open_.emplace(event.job, open).first->second;
 }
 

@@ -22,7 +22,7 @@ Result<Job> PrintExecutor::check(const JobRequest& request) {
   HP_RETURN_IF_ERROR(print_plan_of(request.job.print(), jobs_, layout_));
   HP_RETURN_IF_ERROR(check_printer());
   Job job;
-  job.made = request.made;
+  job.definition = request.definition;
   return job;
 }
 
@@ -31,9 +31,9 @@ Result<Job> PrintExecutor::create(const JobRequest& request) {
   const std::lock_guard lock(mutex_);
   if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
   HP_RETURN_IF_ERROR(check_printer());
-  HP_ASSIGN_OR_RETURN(auto earlier, jobs_.repeated(request.made.owner, request.key));
+  HP_ASSIGN_OR_RETURN(auto earlier, jobs_.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
-  HP_ASSIGN_OR_RETURN(Job job, jobs_.create(request.made, request.key));
+  HP_ASSIGN_OR_RETURN(Job job, jobs_.create(request.definition, request.key));
   // The store allows only one print at a time.
   if (thread_.joinable()) thread_.join();
   run_ = std::make_unique<PrintSession>(*setup_, device_jobs_, layout_, job, plan);

@@ -48,10 +48,10 @@ void PrintSession::go() {
 }
 
 Status PrintSession::print() {
-  tell("ASKING", 0, "connecting to " + facts_.address);
-  const printer::Printer asked(setup_.address, setup_.timing,
-                               [this] { return cancelled_ || left_; });
-  HP_ASSIGN_OR_RETURN(facts_.printer, asked.attributes());
+  publish("ASKING", 0, "connecting to " + facts_.address);
+  const printer::Printer device(setup_.address, setup_.timing,
+                                [this] { return cancelled_ || left_; });
+  HP_ASSIGN_OR_RETURN(facts_.printer, device.attributes());
   HP_RETURN_IF_ERROR(check_takes_pdf(facts_.printer, facts_.address));
   note(warnings_of(facts_.plan, facts_.printer));
   HP_ASSIGN_OR_RETURN(const printer::Submitted sent, send());
@@ -65,8 +65,8 @@ Status PrintSession::print() {
 }
 
 Result<printer::Submitted> PrintSession::send() {
-  tell("SENDING", kSending,
-       fmt::format("sending {} to {}", facts_.plan.print_image_job, facts_.printer.name));
+  publish("SENDING", kSending,
+          fmt::format("sending {} to {}", facts_.plan.print_image_job, facts_.printer.name));
   HP_ASSIGN_OR_RETURN(const std::string pdf, read_text_file(facts_.plan.pdf, kLargestPdf));
   printer::PrintJob what;
   what.document = {reinterpret_cast<const unsigned char*>(pdf.data()), pdf.size()};
@@ -80,7 +80,7 @@ Result<printer::Submitted> PrintSession::send() {
 void PrintSession::note(const Warnings& warnings) {
   for (const Warning& warning : warnings) {
     facts_.warnings.push_back(warning);
-    tell("SENDING", kSending, "warning: " + warning.message);
+    publish("SENDING", kSending, "warning: " + warning.message);
   }
 }
 
@@ -88,15 +88,15 @@ void PrintSession::note(const printer::JobReport& report) {
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun_;
   facts_.news.push_back({passed.count(), report});
   const double pages = std::min(1.0, static_cast<double>(report.pages_done) / facts_.plan.pages);
-  tell(phase_of(report.state), kSent + (1 - kSent) * pages,
-       fmt::format("printer's job {}: {}", report.id, words_of(report)));
+  publish(phase_of(report.state), kSent + (1 - kSent) * pages,
+          fmt::format("printer's job {}: {}", report.id, words_of(report)));
 }
 
-void PrintSession::tell(std::string_view phase, double fraction, const std::string& message) {
-  const Status told =
+void PrintSession::publish(std::string_view phase, double fraction, const std::string& message) {
+  const Status status =
       jobs_.advance(job_, JobState::kRunning, "", {fraction, std::string(phase), 0, 0}, message);
-  if (!told) {
-    log(LogLevel::kError, "progress_lost", {{"job", job_}, {"message", told.error().message}});
+  if (!status) {
+    log(LogLevel::kError, "progress_lost", {{"job", job_}, {"message", status.error().message}});
   }
   log(LogLevel::kInfo, "print_step", {{"job", job_}, {"step", phase}, {"message", message}});
 }

@@ -35,7 +35,7 @@ class PrintSession {
   [[nodiscard]] Result<printer::Submitted> send();
   void note(const Warnings& warnings);
   void note(const printer::JobReport& report);
-  void tell(std::string_view phase, double fraction, const std::string& message);
+  void publish(std::string_view phase, double fraction, const std::string& message);
   void finish(const Status& done);
   [[nodiscard]] JobState ending(const Status& done) const;
   [[nodiscard]] std::vector<Artifact> publish_record();

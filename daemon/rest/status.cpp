@@ -31,8 +31,8 @@ int retry_after_s(const Error& error) {
   for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
     if (error.reason == full) return 10;
   }
-  const auto told = error.metadata.find("retry_s");
-  return told == error.metadata.end() ? 0 : std::atoi(told->second.c_str());
+  const auto retry_s = error.metadata.find("retry_s");
+  return retry_s == error.metadata.end() ? 0 : std::atoi(retry_s->second.c_str());
 }
 
 }  // namespace

@@ -17,10 +17,11 @@ bool wants_help(v1::Rig::State state) {
 
 }  // namespace
 
-RigMonitor::RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> tell)
+RigMonitor::RigMonitor(RigGateway& gateway, RigReference& places,
+                       std::function<void(bool)> set_serving)
     : gateway_(gateway),
       places_(places),
-      tell_(std::move(tell)),
+      set_serving_(std::move(set_serving)),
       thread_(kLook, [this] { look(); }) {}
 
 void RigMonitor::look() {
@@ -34,8 +35,8 @@ void RigMonitor::look() {
   places_.look();
   const v1::Rig rig = rig_message(gateway_);
   const bool serving = !wants_help(rig.state());
-  if (told_ != serving) tell_(serving);
-  told_ = serving;
+  if (was_serving_ != serving) set_serving_(serving);
+  was_serving_ = serving;
   const std::string state = v1::Rig::State_Name(rig.state()) + (serving ? "" : " " + rig.cause());
   if (std::exchange(state_, state) == state || gateway_.controller() == nullptr) return;
   log(serving ? LogLevel::kInfo : LogLevel::kWarning, "rig_state",

@@ -15,17 +15,18 @@ namespace hydroprint::daemon {
 /// and makes RigReference check for homing.
 class RigMonitor {
  public:
-  /// @param tell  called at the start and after every change; true: the rig is usable, as far as
+  /// @param set_serving  called at the start and after every change; true: the rig is usable, as
+  /// far as
   ///              known (not OFFLINE, FAULT or ESTOPPED)
-  RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> tell);
+  RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> set_serving);
 
  private:
   void look();
 
   RigGateway& gateway_;
   RigReference& places_;
-  std::function<void(bool)> tell_;
-  std::optional<bool> told_;
+  std::function<void(bool)> set_serving_;
+  std::optional<bool> was_serving_;
   std::string state_;  // last logged state
   PeriodicThread thread_;
 };

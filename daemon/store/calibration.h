@@ -29,7 +29,7 @@ struct Captured {
 /// A stored calibration.
 struct Calibration {
   std::int64_t id = 0;
-  NewCalibration made;
+  NewCalibration definition;
   bool active = false;
   std::int64_t create_ms = 0;
   std::optional<Captured> captured;

@@ -24,8 +24,8 @@ std::optional<Captured> read_captured(const DbRow& row, int at) {
 Calibration read(const DbRow& row) {
   Calibration out;
   out.id = row.integer(0);
-  out.made = {static_cast<CalibrationKind>(row.integer(1)), row.text(2), row.integer(3),
-              row.integer(4), row.text(7)};
+  out.definition = {static_cast<CalibrationKind>(row.integer(1)), row.text(2), row.integer(3),
+                    row.integer(4), row.text(7)};
   out.active = row.integer(5) != 0;
   out.create_ms = row.integer(6);
   out.captured = read_captured(row, 8);
@@ -34,14 +34,15 @@ Calibration read(const DbRow& row) {
 
 }  // namespace
 
-Result<std::int64_t> insert_calibration(Database& database, const NewCalibration& made,
+Result<std::int64_t> insert_calibration(Database& database, const NewCalibration& definition,
                                         std::int64_t now_ms) {
   HP_RETURN_IF_ERROR(
       database.run("INSERT INTO calibrations(kind, owner, job, capture, active, create_ms, body) "
                    "VALUES (?,?,?,?,0,?,?)",
-                   {number(made.kind), made.owner, made.job, made.capture, now_ms, made.body}));
+                   {number(definition.kind), definition.owner, definition.job, definition.capture,
+                    now_ms, definition.body}));
   const std::int64_t id = database.last_id();
-  HP_RETURN_IF_ERROR(make_active(database, id, made.kind));
+  HP_RETURN_IF_ERROR(make_active(database, id, definition.kind));
   return id;
 }
 
@@ -63,18 +64,18 @@ Result<std::vector<Calibration>> CalibrationStore::select(const std::string& whe
   return out;
 }
 
-Result<Calibration> CalibrationStore::create(const NewCalibration& made,
+Result<Calibration> CalibrationStore::create(const NewCalibration& definition,
                                              const RequestKey& request) {
   std::int64_t id = 0;
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto earlier,
-                        earlier_result(database_, made.owner, request, clock_()));
+                        earlier_result(database_, definition.owner, request, clock_()));
     if (earlier) {
       id = parse_number(*earlier);
       return {};
     }
-    HP_ASSIGN_OR_RETURN(id, insert_calibration(database_, made, clock_()));
-    return remember_result(database_, made.owner, request, std::to_string(id), clock_());
+    HP_ASSIGN_OR_RETURN(id, insert_calibration(database_, definition, clock_()));
+    return remember_result(database_, definition.owner, request, std::to_string(id), clock_());
   });
   HP_RETURN_IF_ERROR(done);
   return get(id);
@@ -100,7 +101,7 @@ Result<std::vector<Calibration>> CalibrationStore::list(std::int64_t before_id, 
 Result<Calibration> CalibrationStore::activate(std::int64_t id) {
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Calibration found, get(id));
-    return make_active(database_, id, found.made.kind);
+    return make_active(database_, id, found.definition.kind);
   });
   HP_RETURN_IF_ERROR(done);
   return get(id);

@@ -21,7 +21,8 @@ class CalibrationStore {
 
   /// Stores a manually entered calibration, or returns the one that the same request created.
   /// @return kInvalidArgument, REQUEST_ID_REUSED
-  [[nodiscard]] Result<Calibration> create(const NewCalibration& made, const RequestKey& request);
+  [[nodiscard]] Result<Calibration> create(const NewCalibration& definition,
+                                           const RequestKey& request);
   [[nodiscard]] Result<Calibration> get(std::int64_t id);
   /// Returns the active calibration of a kind, if there is one.
   [[nodiscard]] Result<std::optional<Calibration>> active(CalibrationKind kind);
@@ -49,7 +50,7 @@ class CalibrationStore {
 /// of the job that produces it.
 /// @return its id
 [[nodiscard]] Result<std::int64_t> insert_calibration(Database& database,
-                                                      const NewCalibration& made,
+                                                      const NewCalibration& definition,
                                                       std::int64_t now_ms);
 
 /// Returns the id of the calibration that a job produced; 0 if there is none.

@@ -109,7 +109,7 @@ struct Progress {
 struct Job {
   std::int64_t id = 0;
   std::string uid;
-  NewJob made;
+  NewJob definition;
   JobState state = JobState::kQueued;
   Progress progress;
   std::int64_t create_ms = 0, start_ms = 0, end_ms = 0, update_ms = 0, purge_ms = 0;

@@ -57,7 +57,8 @@ Result<Job> JobQueue::move(std::int64_t id, std::int64_t before) {
     if (job.state != JobState::kQueued)
       return cannot_move(id, "is not queued, so it cannot be moved");
     HP_ASSIGN_OR_RETURN(std::vector<WaitingJob> all, waiting());
-    std::erase_if(all, [&](const WaitingJob& other) { return other.owner != job.made.owner; });
+    std::erase_if(all,
+                  [&](const WaitingJob& other) { return other.owner != job.definition.owner; });
     const bool there = std::any_of(all.begin(), all.end(),
                                    [&](const WaitingJob& other) { return other.id == before; });
     if (before != 0 && !there) {

@@ -55,8 +55,8 @@ Status JobRetention::purge_one(std::int64_t id) {
     HP_RETURN_IF_ERROR(database_.run(std::string("DELETE FROM jobs WHERE ") + kIsDue + " AND id=?2",
                                      {changes_.now_ms(), id}));
     is_gone = database_.changes() > 0;
-    owner = job.made.owner;
-    name = job.made.display_name;
+    owner = job.definition.owner;
+    name = job.definition.display_name;
     return {};
   });
   HP_RETURN_IF_ERROR(done);

@@ -38,19 +38,19 @@ Job read_job(const DbRow& row) {
   Job job;
   job.id = row.integer(0);
   job.uid = row.text(1);
-  job.made.display_name = row.text(2);
-  job.made.owner = row.text(3);
-  job.made.priority = static_cast<std::int32_t>(row.integer(4));
-  job.made.body = row.text(5);
-  job.made.work.verb = row.text(6);
-  job.made.work.flags = split_lines(row.text(7));
-  job.made.work.pose_json = row.text(29);
-  job.made.work.spec = row.text(33);
-  job.made.traits = {row.integer(34) != 0, row.integer(35) != 0, row.text(36)};
-  job.made.threads = static_cast<std::int32_t>(row.integer(8));
-  job.made.digest = row.text(9);
-  job.made.retry_of = row.integer(10);
-  job.made.use_cache = row.integer(11) != 0;
+  job.definition.display_name = row.text(2);
+  job.definition.owner = row.text(3);
+  job.definition.priority = static_cast<std::int32_t>(row.integer(4));
+  job.definition.body = row.text(5);
+  job.definition.work.verb = row.text(6);
+  job.definition.work.flags = split_lines(row.text(7));
+  job.definition.work.pose_json = row.text(29);
+  job.definition.work.spec = row.text(33);
+  job.definition.traits = {row.integer(34) != 0, row.integer(35) != 0, row.text(36)};
+  job.definition.threads = static_cast<std::int32_t>(row.integer(8));
+  job.definition.digest = row.text(9);
+  job.definition.retry_of = row.integer(10);
+  job.definition.use_cache = row.integer(11) != 0;
   job.cache_hit = row.integer(12) != 0;
   job.state = static_cast<JobState>(row.integer(13));
   job.progress = {row.real(14), row.text(15), row.real(16), row.integer(17)};
@@ -97,7 +97,7 @@ Result<Job> select_job(Database& database, std::int64_t id) {
   Job job = std::move(jobs.front());
   HP_RETURN_IF_ERROR(
       database.each("SELECT name, sha256 FROM job_inputs WHERE job=?", {id}, [&](const DbRow& row) {
-        job.made.work.inputs.push_back({row.text(0), row.text(1)});
+        job.definition.work.inputs.push_back({row.text(0), row.text(1)});
       }));
   return job;
 }

@@ -51,36 +51,37 @@ Status JobStore::check_queue() {
   return {};
 }
 
-Result<std::int64_t> JobStore::insert(const NewJob& made) {
-  const JobTraits& traits = made.traits;
-  const bool is_dip = !made.dip_status.empty();
+Result<std::int64_t> JobStore::insert(const NewJob& definition) {
+  const JobTraits& traits = definition.traits;
+  const bool is_dip = !definition.dip_status.empty();
   const JobState state = traits.computed ? JobState::kQueued
                          : is_dip        ? JobState::kWaitingForOperator
                                          : JobState::kRunning;
-  HP_RETURN_IF_ERROR(traits.computed ? check_queue() : check_none_open(database_, made.work.verb));
-  HP_RETURN_IF_ERROR(check_job_quota(database_, made.owner, options_.quota, traits.computed));
-  HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
+  HP_RETURN_IF_ERROR(traits.computed ? check_queue()
+                                     : check_none_open(database_, definition.work.verb));
+  HP_RETURN_IF_ERROR(check_job_quota(database_, definition.owner, options_.quota, traits.computed));
+  HP_RETURN_IF_ERROR(check_inputs(definition.work.inputs));
   const std::int64_t now = changes_.now_ms();
   HP_RETURN_IF_ERROR(database_.run(
       "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, spec, flags, pose, "
       "computed, reads_artifacts, interrupted_advice, threads, digest, retry_of, use_cache, state, "
       "start_ms, create_ms, update_ms) VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
       {make_uuid(),
-       made.display_name,
-       made.owner,
-       std::int64_t{made.priority},
-       made.body,
-       made.work.verb,
-       made.work.spec,
-       join_lines(made.work.flags),
-       made.work.pose_json,
+       definition.display_name,
+       definition.owner,
+       std::int64_t{definition.priority},
+       definition.body,
+       definition.work.verb,
+       definition.work.spec,
+       join_lines(definition.work.flags),
+       definition.work.pose_json,
        std::int64_t{traits.computed},
        std::int64_t{traits.reads_artifacts},
        traits.interrupted_advice,
-       std::int64_t{made.threads},
-       made.digest,
-       made.retry_of,
-       std::int64_t{made.use_cache},
+       std::int64_t{definition.threads},
+       definition.digest,
+       definition.retry_of,
+       std::int64_t{definition.use_cache},
        number(state),
        state == JobState::kRunning ? now : 0,
        now,
@@ -88,31 +89,32 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
   const std::int64_t id = database_.last_id();
   // Later jobs rank after earlier ones; moving permutes ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
-  for (const InputFile& input : made.work.inputs) {
+  for (const InputFile& input : definition.work.inputs) {
     HP_RETURN_IF_ERROR(
         database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
     HP_RETURN_IF_ERROR(
         database_.run("UPDATE assets SET use_ms=? WHERE sha256=?", {now, input.sha256}));
   }
-  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(database_, id, made.dip_status));
+  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(database_, id, definition.dip_status));
   HP_RETURN_IF_ERROR(changes_.add_event(id, EventKind::kStateChanged, ""));
   return id;
 }
 
-Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
+Result<Job> JobStore::create(const NewJob& definition, const RequestKey& request) {
   std::int64_t id = 0, inserted = 0;
   const Status done = changes_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto earlier,
-                        earlier_result(database_, made.owner, request, changes_.now_ms()));
+                        earlier_result(database_, definition.owner, request, changes_.now_ms()));
     if (earlier) {
       id = parse_number(*earlier);
       return {};
     }
-    HP_ASSIGN_OR_RETURN(inserted, insert(made));
+    HP_ASSIGN_OR_RETURN(inserted, insert(definition));
     id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-    if (made.traits.computed) HP_RETURN_IF_ERROR(adopt_cached(job));
-    return remember_result(database_, made.owner, request, std::to_string(id), changes_.now_ms());
+    if (definition.traits.computed) HP_RETURN_IF_ERROR(adopt_cached(job));
+    return remember_result(database_, definition.owner, request, std::to_string(id),
+                           changes_.now_ms());
   });
   if (!done && inserted != 0) discard_unowned(inserted);
   HP_RETURN_IF_ERROR(done);
@@ -129,12 +131,12 @@ Result<std::optional<Job>> JobStore::repeated(const std::string& owner, const Re
 
 // Gives a job the artifacts of a finished job with the same inputs, if there is one.
 Result<bool> JobStore::adopt_cached(const Job& job) {
-  if (!job.made.use_cache) return false;
+  if (!job.definition.use_cache) return false;
   HP_ASSIGN_OR_RETURN(
       const auto equal,
       select_numbers(database_,
                      "SELECT id FROM jobs WHERE digest=? AND state=? ORDER BY id DESC LIMIT 1",
-                     {job.made.digest, number(JobState::kSucceeded)}));
+                     {job.definition.digest, number(JobState::kSucceeded)}));
   if (equal.empty()) return false;
   HP_ASSIGN_OR_RETURN(const auto files,
                       select_artifacts(database_, "WHERE job=? ORDER BY name", {equal.front()}));
@@ -267,9 +269,9 @@ Result<Job> JobStore::succeed(std::int64_t id, const std::vector<Artifact>& arti
     HP_RETURN_IF_ERROR(changes_.add_artifacts(id, artifacts));
     HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET fraction=1 WHERE id=?", {id}));
     if (!calibration) return changes_.finish(id, JobState::kSucceeded, "");
-    HP_ASSIGN_OR_RETURN(const std::int64_t made,
+    HP_ASSIGN_OR_RETURN(const std::int64_t definition,
                         insert_calibration(database_, *calibration, changes_.now_ms()));
-    return changes_.finish(id, JobState::kSucceeded, calibration_name(made));
+    return changes_.finish(id, JobState::kSucceeded, calibration_name(definition));
   });
 }
 
@@ -320,7 +322,7 @@ Status JobStore::interrupt_all(Interruption why) {
     };
     const auto interrupted = [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      const std::string& advice = job.made.traits.interrupted_advice;
+      const std::string& advice = job.definition.traits.interrupted_advice;
       return changes_.finish(id, JobState::kInterrupted,
                              advice.empty() ? words : words + ": " + advice);
     };
@@ -328,7 +330,7 @@ Status JobStore::interrupt_all(Interruption why) {
     HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
     return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      if (!job.made.traits.computed) return interrupted(id);
+      if (!job.definition.traits.computed) return interrupted(id);
       HP_RETURN_IF_ERROR(changes_.set_state(id, JobState::kInterrupted, words));
       return queue_again(id, why);
     });

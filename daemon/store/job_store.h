@@ -56,7 +56,7 @@ class JobStore {
   /// @return kResourceExhausted: QUEUE_FULL, QUOTA_EXCEEDED; kFailedPrecondition: ASSET_MISSING, or
   ///         STATE_FORBIDS for a job that is not computed while another of its kind is unfinished;
   ///         kInvalidArgument, REQUEST_ID_REUSED
-  [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
+  [[nodiscard]] Result<Job> create(const NewJob& definition, const RequestKey& request);
   /// Returns the job that the same request created, if any. Errors: REQUEST_ID_REUSED;
   /// JOB_NOT_FOUND if it was deleted.
   [[nodiscard]] Result<std::optional<Job>> repeated(const std::string& owner,
@@ -110,7 +110,7 @@ class JobStore {
   [[nodiscard]] Notifier& notifier() { return changes_.notifier(); }
 
  private:
-  [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
+  [[nodiscard]] Result<std::int64_t> insert(const NewJob& definition);
   [[nodiscard]] Status check_was_given(std::int64_t seq);
   [[nodiscard]] Status check_queue();
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);

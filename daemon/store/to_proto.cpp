@@ -42,20 +42,20 @@ std::string time_text(std::int64_t ms) {
 
 v1::Job to_message(const Job& job) {
   v1::Job out;
-  out.ParseFromString(job.made.body);  // display name, labels and spec
+  out.ParseFromString(job.definition.body);  // display name, labels and spec
   if (job.id != 0) out.set_name(job_name(job.id));
   out.set_uid(job.uid);
-  out.set_display_name(job.made.display_name);
-  out.set_owner(job.made.owner);
-  out.set_priority(job.made.priority);
+  out.set_display_name(job.definition.display_name);
+  out.set_owner(job.definition.owner);
+  out.set_priority(job.definition.priority);
   out.set_state(static_cast<v1::Job::State>(job.state));
   out.set_progress_fraction(job.progress.fraction);
   out.set_phase(job.progress.phase);
   if (job.id != 0) set_times(job, out);
   out.set_etag(std::to_string(job.version));
   if (job.failure) set_error(*job.failure, *out.mutable_error());
-  if (job.made.retry_of != 0) out.set_retry_of(job_name(job.made.retry_of));
-  out.set_input_digest(job.made.digest);
+  if (job.definition.retry_of != 0) out.set_retry_of(job_name(job.definition.retry_of));
+  out.set_input_digest(job.definition.digest);
   out.set_cache_hit(job.cache_hit);
   out.set_shared(job.shared);
   out.set_pinned(job.pinned);

@@ -23,14 +23,14 @@ constexpr std::size_t kMostBytes = 1 << 20;
 // key does not reveal earlier connections.
 constexpr const char* kCiphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
-struct Freeing {
+struct Deleter {
   void operator()(BIO* bio) const { BIO_free(bio); }
   void operator()(X509* certificate) const { X509_free(certificate); }
   void operator()(EVP_PKEY* key) const { EVP_PKEY_free(key); }
   void operator()(GENERAL_NAMES* names) const { GENERAL_NAMES_free(names); }
 };
 template <class T>
-using Owned = std::unique_ptr<T, Freeing>;
+using Owned = std::unique_ptr<T, Deleter>;
 
 tl::unexpected<Error> refused(const std::filesystem::path& file, const std::string& why) {
   return fail(Code::kInvalidArgument, file.string() + ": " + why, "CONFIG_INVALID");
@@ -149,11 +149,11 @@ bool is_same(std::string_view a, std::string_view b) {
 
 Result<std::shared_ptr<const Identity>> Identity::read(
     const std::filesystem::path& certificate_file, const std::filesystem::path& key_file) {
-  std::shared_ptr<Identity> made(new Identity);
-  HP_ASSIGN_OR_RETURN(made->chain_pem_, read_file(certificate_file, "certificate", false));
-  HP_ASSIGN_OR_RETURN(made->key_pem_, read_file(key_file, "key", true));
+  std::shared_ptr<Identity> result(new Identity);
+  HP_ASSIGN_OR_RETURN(result->chain_pem_, read_file(certificate_file, "certificate", false));
+  HP_ASSIGN_OR_RETURN(result->key_pem_, read_file(key_file, "key", true));
   ERR_clear_error();
-  const auto chain = certificates_in(made->chain_pem_);
+  const auto chain = certificates_in(result->chain_pem_);
   if (chain.empty()) {
     return refused(
         certificate_file,
@@ -161,7 +161,7 @@ Result<std::shared_ptr<const Identity>> Identity::read(
   }
   ERR_clear_error();
   const Owned<EVP_PKEY> key(
-      PEM_read_bio_PrivateKey(reader_of(made->key_pem_).get(), nullptr, no_passphrase, nullptr));
+      PEM_read_bio_PrivateKey(reader_of(result->key_pem_).get(), nullptr, no_passphrase, nullptr));
   if (!key) {
     return refused(key_file, fmt::format("has no key in PEM format without a passphrase{}; convert "
                                          "it with: openssl pkey -in OLD -out NEW",
@@ -174,8 +174,8 @@ Result<std::shared_ptr<const Identity>> Identity::read(
                                certificate_file.string()));
   }
   ERR_clear_error();
-  made->context_ = server_context();
-  SSL_CTX* const context = made->context_.get();
+  result->context_ = server_context();
+  SSL_CTX* const context = result->context_.get();
   bool is_good = context != nullptr && SSL_CTX_use_certificate(context, chain[0].get()) == 1 &&
                  SSL_CTX_use_PrivateKey(context, key.get()) == 1;
   for (std::size_t i = 1; is_good && i < chain.size(); ++i) {
@@ -187,9 +187,9 @@ Result<std::shared_ptr<const Identity>> Identity::read(
         fmt::format("cannot be used for TLS{}; create a new one, with a key of 2048 bits or more",
                     openssl_words()));
   }
-  made->names_ = names_of(*chain.front());
-  made->expire_s_ = unix_time(X509_get0_notAfter(chain.front().get()));
-  return std::shared_ptr<const Identity>(std::move(made));
+  result->names_ = names_of(*chain.front());
+  result->expire_s_ = unix_time(X509_get0_notAfter(chain.front().get()));
+  return std::shared_ptr<const Identity>(std::move(result));
 }
 
 bool stands_for(const Identity& identity, std::string_view host) {

@@ -73,7 +73,7 @@ struct ChildPlan {
   char* const* arguments;
   char* const* environment;
   const char* folder;
-  int requests, progress, errors, answer, fence;
+  int requests, progress, errors, answer, ruleset;
   pid_t parent;
   bool confined;
 };
@@ -101,7 +101,7 @@ struct ChildPlan {
   ::signal(SIGPIPE, SIG_DFL);
   if (::chdir(plan.folder) != 0) give_up(plan.folder);
   if (const char* problem =
-          plan.confined ? sandbox.confine(limits, plan.fence) : Sandbox::limit_use(limits)) {
+          plan.confined ? sandbox.confine(limits, plan.ruleset) : Sandbox::limit_use(limits)) {
     give_up(problem);
   }
   ::close_range(kProgressFd + 1, ~0U, 0);
@@ -120,14 +120,14 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe answer, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe requests, make_stdin(what.is_asked));
-  HP_ASSIGN_OR_RETURN(const UniqueFd fence, make_fence(what.program, what.inputs, what.work));
+  HP_ASSIGN_OR_RETURN(const UniqueFd ruleset, make_ruleset(what.program, what.inputs, what.work));
   std::vector<std::string> arguments = what.arguments;
   arguments.insert(arguments.begin(), what.program.string());
   std::vector<std::string> environment = make_environment(what.work);
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
   const ChildPlan plan{what.program.c_str(), argv.data(),         envp.data(),
                        what.inputs.c_str(),  requests.read.get(), progress.write.get(),
-                       errors.write.get(),   answer.write.get(),  fence.get(),
+                       errors.write.get(),   answer.write.get(),  ruleset.get(),
                        ::getpid(),           what.confined};
   ChildProcess worker;
   worker.pid = ::fork();

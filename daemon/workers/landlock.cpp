@@ -44,7 +44,7 @@ bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64
 
 bool fences_work() { return version() > 0; }
 
-bool is_within_fence(const std::filesystem::path& file, const std::filesystem::path& program) {
+bool is_within_ruleset(const std::filesystem::path& file, const std::filesystem::path& program) {
   std::error_code ignored;
   const std::filesystem::path real = std::filesystem::weakly_canonical(file, ignored);
   const auto is_below = [&](const std::filesystem::path& folder) {
@@ -55,9 +55,9 @@ bool is_within_fence(const std::filesystem::path& file, const std::filesystem::p
          is_below(std::filesystem::weakly_canonical(program, ignored).parent_path());
 }
 
-Result<UniqueFd> make_fence(const std::filesystem::path& program,
-                            const std::filesystem::path& inputs,
-                            const std::filesystem::path& work) {
+Result<UniqueFd> make_ruleset(const std::filesystem::path& program,
+                              const std::filesystem::path& inputs,
+                              const std::filesystem::path& work) {
   if (!fences_work()) return UniqueFd();
   const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
   const UniqueFd low(
@@ -73,8 +73,8 @@ Result<UniqueFd> make_fence(const std::filesystem::path& program,
   return rules;
 }
 
-bool enter_fence(int fence) {
-  return fence < 0 || ::syscall(SYS_landlock_restrict_self, fence, 0) == 0;
+bool apply_ruleset(int ruleset) {
+  return ruleset < 0 || ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
 }
 
 }  // namespace hydroprint::daemon

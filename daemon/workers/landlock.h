@@ -10,21 +10,21 @@ namespace hydroprint::daemon {
 /// that refers to textures in "/home/..." cannot read them, and a compromised worker cannot change
 /// other files. Readable: the system (/usr, /lib, /etc, /proc, ...), the worker program's folder
 /// and `inputs`. Writable: `work`.
-/// @return a descriptor for enter_fence(), or an invalid one if the kernel has no Landlock
-[[nodiscard]] Result<UniqueFd> make_fence(const std::filesystem::path& program,
-                                          const std::filesystem::path& inputs,
-                                          const std::filesystem::path& work);
+/// @return a descriptor for apply_ruleset(), or an invalid one if the kernel has no Landlock
+[[nodiscard]] Result<UniqueFd> make_ruleset(const std::filesystem::path& program,
+                                            const std::filesystem::path& inputs,
+                                            const std::filesystem::path& work);
 
 /// Returns whether the kernel has Landlock.
 [[nodiscard]] bool fences_work();
 
 /// Returns whether the workers of `program` can read this file although it is not an input: system
 /// files, and files next to the program.
-[[nodiscard]] bool is_within_fence(const std::filesystem::path& file,
-                                   const std::filesystem::path& program);
+[[nodiscard]] bool is_within_ruleset(const std::filesystem::path& file,
+                                     const std::filesystem::path& program);
 
 /// Confines the calling thread permanently. The no_new_privs attribute must be set. Acquires no
 /// locks.
-[[nodiscard]] bool enter_fence(int fence);
+[[nodiscard]] bool apply_ruleset(int ruleset);
 
 }  // namespace hydroprint::daemon

@@ -19,7 +19,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 // Each slot keeps a mesh in memory.
-constexpr std::size_t kMostSeats = 4;
+constexpr std::size_t kMaxSlots = 4;
 constexpr std::chrono::seconds kKept{120};
 constexpr std::chrono::seconds kTimeLimit{30};
 constexpr std::chrono::milliseconds kLook{50};
@@ -49,7 +49,7 @@ struct PreviewPool::Call {
   PreviewRequest ask;
   bool sent = false;
   SteadyTime deadline;
-  std::optional<Result<Previewed>> result;
+  std::optional<Result<PreviewResult>> result;
 };
 
 struct PreviewPool::Slot {
@@ -62,12 +62,12 @@ struct PreviewPool::Slot {
 Result<std::unique_ptr<PreviewPool>> PreviewPool::make(PreviewOptions options,
                                                        const Layout& layout) {
   HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
-  std::unique_ptr<PreviewPool> made(
+  std::unique_ptr<PreviewPool> preview_pool(
       new PreviewPool(std::move(options), layout, std::move(sandbox)));
-  made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be created");
-  made->thread_ = std::thread([&pool = *made] { pool.work(); });
-  return made;
+  preview_pool->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!preview_pool->wake_.valid()) return system_failure("eventfd", "cannot be created");
+  preview_pool->thread_ = std::thread([&pool = *preview_pool] { pool.work(); });
+  return preview_pool;
 }
 
 PreviewPool::PreviewPool(PreviewOptions options, Layout layout, Sandbox sandbox)
@@ -84,8 +84,8 @@ void PreviewPool::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-Result<Previewed> PreviewPool::compute(const std::string& owner, const PreviewRequest& ask,
-                                       const std::function<bool()>& gone) {
+Result<PreviewResult> PreviewPool::compute(const std::string& owner, const PreviewRequest& ask,
+                                           const std::function<bool()>& gone) {
   std::unique_lock lock(mutex_);
   HP_ASSIGN_OR_RETURN(const std::shared_ptr<Call> call, place(owner, ask));
   ::eventfd_write(wake_.get(), 1);
@@ -121,7 +121,7 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
 
 /// If all slots are in use, frees the least recently used slot without a waiting call.
 bool PreviewPool::make_room() {
-  if (slots_.size() < kMostSeats) return true;
+  if (slots_.size() < kMaxSlots) return true;
   auto oldest = slots_.end();
   for (auto slot = slots_.begin(); slot != slots_.end(); ++slot) {
     if (slot->second->call || (oldest != slots_.end() && oldest->second->used < slot->second->used))
@@ -157,8 +157,8 @@ void PreviewPool::wait(std::unique_lock<std::mutex>& lock) {
   }
   lock.unlock();
   ::poll(fds.data(), fds.size(), kLookAgain_ms);
-  eventfd_t rings = 0;
-  ::eventfd_read(wake_.get(), &rings);
+  eventfd_t wakeups = 0;
+  ::eventfd_read(wake_.get(), &wakeups);
   lock.lock();
 }
 
@@ -203,10 +203,10 @@ void PreviewPool::take(Slot& slot, PreviewFrame frame) {
   if (!answer) return;  // answer to a call that has ended
   slot.used = SteadyClock::now();
   if (!*answer) return finish(slot, tl::unexpected(answer->error()));
-  finish(slot, Previewed{slot.mesh, std::move(**answer)});
+  finish(slot, PreviewResult{slot.mesh, std::move(**answer)});
 }
 
-void PreviewPool::finish(Slot& slot, Result<Previewed> result) {
+void PreviewPool::finish(Slot& slot, Result<PreviewResult> result) {
   slot.call->result = std::move(result);
   slot.call = nullptr;
   answered_.notify_all();

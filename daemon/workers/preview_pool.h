@@ -21,7 +21,7 @@ struct PreviewOptions {
 };
 
 /// A preview, with the mesh that it refers to.
-struct Previewed {
+struct PreviewResult {
   std::shared_ptr<const PreviewFrame> mesh;
   PreviewFrame dip;
 };
@@ -41,8 +41,8 @@ class PreviewPool {
   /// @param gone  returns whether the caller has disconnected; polled
   /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
   ///         MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; errors of the worker
-  [[nodiscard]] Result<Previewed> compute(const std::string& owner, const PreviewRequest& ask,
-                                          const std::function<bool()>& gone);
+  [[nodiscard]] Result<PreviewResult> compute(const std::string& owner, const PreviewRequest& ask,
+                                              const std::function<bool()>& gone);
   /// Ends all workers; waiting calls return an error.
   void stop();
 
@@ -60,7 +60,7 @@ class PreviewPool {
   void begin(Slot& slot);
   void take(Slot& slot, PreviewFrame frame);
   void wait(std::unique_lock<std::mutex>& lock);
-  void finish(Slot& slot, Result<Previewed> result);
+  void finish(Slot& slot, Result<PreviewResult> result);
 
   PreviewOptions options_;
   Layout layout_;

@@ -38,12 +38,12 @@ PreviewWorker::~PreviewWorker() {
 Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
     const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
     const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout) {
-  std::unique_ptr<PreviewWorker> made(new PreviewWorker(ask.key, layout.preview(number)));
+  std::unique_ptr<PreviewWorker> preview_worker(new PreviewWorker(ask.key, layout.preview(number)));
   Launch plan;
   plan.program = program;
   plan.arguments = {"preview", fmt::format("--threads={}", threads)};
-  plan.inputs = made->folder_ / "in";
-  plan.work = made->folder_ / "work";
+  plan.inputs = preview_worker->folder_ / "in";
+  plan.work = preview_worker->folder_ / "work";
   plan.limits = limits;
   plan.is_asked = true;
   HP_RETURN_IF_ERROR(lay_out_inputs(layout, ask.inputs, plan.inputs));
@@ -51,8 +51,8 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
   const auto spec_file = plan.work / "spec.json";
   HP_RETURN_IF_ERROR(write_file(spec_file, ask.spec));
   for (std::string& option : spec_options(spec_file)) plan.arguments.push_back(std::move(option));
-  HP_ASSIGN_OR_RETURN(made->worker_, launch(plan, sandbox));
-  return made;
+  HP_ASSIGN_OR_RETURN(preview_worker->worker_, launch(plan, sandbox));
+  return preview_worker;
 }
 
 void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
@@ -68,14 +68,14 @@ void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
 std::vector<PreviewFrame> PreviewWorker::read() {
   std::vector<PreviewFrame> frames;
   if (failure_) return frames;
-  const bool goes_on = drain(worker_.answer, bytes_, kAtOnce);
+  const bool is_open = drain(worker_.answer, bytes_, kAtOnce);
   for (;;) {
     auto frame = cut_framed(bytes_, kMostBytes);
     if (!frame) failure_ = unusable();
     if (!frame || !*frame) break;
     frames.push_back(std::move(**frame));
   }
-  if (!goes_on && !failure_) judge_end();
+  if (!is_open && !failure_) judge_end();
   return frames;
 }
 
@@ -85,7 +85,7 @@ void PreviewWorker::judge_end() {
   (void)drain(worker_.errors, words_, kWordsKept);
   const int wait_status = ended ? *ended : kill_and_wait(worker_);
   worker_.pid = -1;
-  const auto why = judge(wait_status, StoppedFor::kNothing, words_);
+  const auto why = judge(wait_status, StopReason::kNothing, words_);
   failure_ = why ? why->error : unusable();
 }
 

@@ -110,7 +110,7 @@ bool limit(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
 }
 
 // If memory runs short, the kernel kills a worker rather than the daemon.
-void volunteer_for_oom() {
+void raise_oom_score() {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
   if (::write(file, "500", 3) < 0) errno = 0;  // only a preference
@@ -134,7 +134,7 @@ Result<Sandbox> Sandbox::make() {
 }
 
 const char* Sandbox::limit_use(const Limits& limits) {
-  volunteer_for_oom();
+  raise_oom_score();
   if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 256) ||
       !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
     return "cannot set resource limits";
@@ -150,10 +150,10 @@ const char* Sandbox::limit_use(const Limits& limits) {
   return nullptr;
 }
 
-const char* Sandbox::confine(const Limits& limits, int fence) const {
+const char* Sandbox::confine(const Limits& limits, int ruleset) const {
   give_way();
   if (const char* const failed = limit_use(limits)) return failed;
-  if (!enter_fence(fence)) return "cannot restrict file access";
+  if (!apply_ruleset(ruleset)) return "cannot restrict file access";
   const sock_fprog program{static_cast<unsigned short>(filter_.size()),
                            const_cast<sock_filter*>(filter_.data())};
   if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)

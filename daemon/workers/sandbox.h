@@ -25,9 +25,9 @@ class Sandbox {
   [[nodiscard]] static Result<Sandbox> make();
 
   /// Confines the calling process permanently. Runs between fork and exec, so it acquires no locks.
-  /// @param fence  see make_fence(); negative: none
+  /// @param ruleset  see make_ruleset(); negative: none
   /// @return the step that failed, or nullptr
-  [[nodiscard]] const char* confine(const Limits& limits, int fence) const;
+  [[nodiscard]] const char* confine(const Limits& limits, int ruleset) const;
 
   /// Sets only the resource limits, for a program that reads no untrusted files and needs a device.
   [[nodiscard]] static const char* limit_use(const Limits& limits);

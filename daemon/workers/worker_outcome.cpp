@@ -152,14 +152,14 @@ std::string last_line(std::string_view errors) {
   return shortened(printable(errors), kLongestMessage);
 }
 
-std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string_view errors,
+std::optional<JobFailure> judge(int wait_status, StopReason stopped, std::string_view errors,
                                 std::string_view answer) {
   const std::string words = last_line(errors);
   if (WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0) return std::nullopt;
   JobFailure out;
-  if (stopped == StoppedFor::kTime) {
+  if (stopped == StopReason::kTime) {
     out = time_failure();
-  } else if (stopped == StoppedFor::kMemory) {
+  } else if (stopped == StopReason::kMemory) {
     out = memory_failure();
   } else if (WIFEXITED(wait_status)) {
     out = judge_failed_exit(WEXITSTATUS(wait_status), words, answer);

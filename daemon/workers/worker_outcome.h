@@ -9,7 +9,7 @@
 namespace hydroprint::daemon {
 
 /// Why the pool stopped a worker, if it did.
-enum class StoppedFor { kNothing, kCancel, kShutdown, kTime, kMemory };
+enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 
 /// Returns the last non-empty line of a worker's stderr, made safe for one line of text.
 [[nodiscard]] std::string last_line(std::string_view errors);
@@ -18,7 +18,7 @@ enum class StoppedFor { kNothing, kCancel, kShutdown, kTime, kMemory };
 /// @param wait_status  from waitpid()
 /// @param errors       its stderr
 /// @param answer       its stdout, which with --json may contain a reason of ErrorReason
-[[nodiscard]] std::optional<JobFailure> judge(int wait_status, StoppedFor stopped,
+[[nodiscard]] std::optional<JobFailure> judge(int wait_status, StopReason stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});
 

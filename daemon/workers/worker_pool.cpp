@@ -117,21 +117,21 @@ void WorkerPool::stop() {
 
 Result<NewJob> WorkerPool::with_digest(const JobRequest& request) const {
   HP_ASSIGN_OR_RETURN(const std::string worker, impl_->program.get());
-  NewJob made = request.made;
-  made.digest = input_digest(made.work, worker);
-  return made;
+  NewJob definition = request.definition;
+  definition.digest = input_digest(definition.work, worker);
+  return definition;
 }
 
 Result<Job> WorkerPool::check(const JobRequest& request) {
-  HP_RETURN_IF_ERROR(impl_->store.check_inputs(request.made.work.inputs));
+  HP_RETURN_IF_ERROR(impl_->store.check_inputs(request.definition.work.inputs));
   Job job;
-  HP_ASSIGN_OR_RETURN(job.made, with_digest(request));
+  HP_ASSIGN_OR_RETURN(job.definition, with_digest(request));
   return job;
 }
 
 Result<Job> WorkerPool::create(const JobRequest& request) {
-  HP_ASSIGN_OR_RETURN(const NewJob made, with_digest(request));
-  HP_ASSIGN_OR_RETURN(Job job, impl_->store.create(made, request.key));
+  HP_ASSIGN_OR_RETURN(const NewJob definition, with_digest(request));
+  HP_ASSIGN_OR_RETURN(Job job, impl_->store.create(definition, request.key));
   wake();
   return job;
 }
@@ -176,8 +176,8 @@ void WorkerPool::Impl::wait_for_something() const {
     for (const int fd : run->descriptors()) fds.push_back({fd, POLLIN, 0});
   }
   ::poll(fds.data(), fds.size(), runs.empty() ? kIdleTick_ms : kTick_ms);
-  std::uint64_t rings = 0;
-  if (::read(notifier.get(), &rings, sizeof rings) < 0) return;  // woken by something else
+  std::uint64_t wakeups = 0;
+  if (::read(notifier.get(), &wakeups, sizeof wakeups) < 0) return;  // woken by something else
 }
 
 void WorkerPool::Impl::cancel_asked() {
@@ -186,7 +186,7 @@ void WorkerPool::Impl::cancel_asked() {
   if (!ids) return;
   for (const auto& run : runs) {
     if (std::find(ids->begin(), ids->end(), run->job()) != ids->end()) {
-      run->stop(StoppedFor::kCancel);
+      run->stop(StopReason::kCancel);
     }
   }
 }
@@ -222,7 +222,7 @@ bool WorkerPool::Impl::start_next() {
   }
   {
     const std::lock_guard lock(turns_mutex);
-    turns.served(job->made.owner);
+    turns.served(job->definition.owner);
   }
   if (job->state == JobState::kRunning) start_job(*job);
   const std::lock_guard lock(turns_mutex);
@@ -253,7 +253,7 @@ Status WorkerPool::Impl::start_worker(const Job& job) {
 }
 
 Status WorkerPool::Impl::make_run_folder(const Job& job) const {
-  const Work& work = job.made.work;
+  const Work& work = job.definition.work;
   HP_RETURN_IF_ERROR(make_folder(layout.run_work(job.id)));
   if (!work.spec.empty()) return write_file(layout.run_spec(job.id), work.spec);
   return work.pose_json.empty() ? Status() : write_file(layout.run_pose(job.id), work.pose_json);
@@ -261,7 +261,7 @@ Status WorkerPool::Impl::make_run_folder(const Job& job) const {
 
 /// Returns the job's options: its spec, or its flags if an earlier version of the daemon stored it.
 std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
-  const Work& work = job.made.work;
+  const Work& work = job.definition.work;
   if (!work.spec.empty()) return spec_options(layout.run_spec(job.id));
   std::vector<std::string> out = work.flags;
   if (!work.pose_json.empty()) out.push_back("--pose=" + layout.run_pose(job.id).string());
@@ -283,14 +283,14 @@ Launch WorkerPool::Impl::plan(const Job& job) const {
   const int there =
       static_cast<int>(runs.size()) + 1 + static_cast<int>(waiting ? waiting->size() : 0);
   const int shared = std::max(1, options.cores / std::clamp(there, 1, options.slots));
-  const int threads = job.made.threads > 0  ? job.made.threads
-                      : options.threads > 0 ? options.threads
-                                            : shared;
+  const int threads = job.definition.threads > 0 ? job.definition.threads
+                      : options.threads > 0      ? options.threads
+                                                 : shared;
   Launch launch;
   launch.program = options.program;
   launch.inputs = layout.run_inputs(job.id);
   launch.work = layout.run_work(job.id);
-  launch.arguments = {job.made.work.verb};
+  launch.arguments = {job.definition.work.verb};
   for (std::string& option : options_of(job)) launch.arguments.push_back(std::move(option));
   launch.arguments.push_back(fmt::format("--threads={}", threads));
   launch.arguments.push_back("--out=" + layout.run_out(job.id).string());
@@ -311,7 +311,7 @@ void WorkerPool::Impl::step_runs() {
 }
 
 void WorkerPool::Impl::stop_all() {
-  for (const auto& run : runs) run->stop(StoppedFor::kShutdown);
+  for (const auto& run : runs) run->stop(StopReason::kShutdown);
   while (!runs.empty()) {
     wait_for_something();
     step_runs();

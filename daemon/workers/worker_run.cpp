@@ -31,14 +31,14 @@ Result<std::unique_ptr<WorkerRun>> WorkerRun::start(const Job& job, const Launch
                                                     std::function<void()> wake) {
   std::unique_ptr<WorkerRun> run(new WorkerRun(job, layout));
   run->wake_ = std::move(wake);
-  HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.made.work.inputs, launch_plan.inputs));
+  HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.definition.work.inputs, launch_plan.inputs));
   HP_ASSIGN_OR_RETURN(run->worker_, launch(launch_plan, sandbox));
   run->memory_bytes_ = launch_plan.limits.memory_bytes;
   run->deadline_ = SteadyClock::now() + time_limit;
   log(LogLevel::kInfo, "job_started",
       {{"job", job.id},
-       {"owner", job.made.owner},
-       {"verb", job.made.work.verb},
+       {"owner", job.definition.owner},
+       {"verb", job.definition.work.verb},
        {"pid", std::int64_t{run->worker_.pid}}});
   return run;
 }
@@ -64,15 +64,15 @@ bool WorkerRun::step(JobStore& store, std::int64_t now_ms) {
   read_progress_lines(store, now_ms);
   watch_limits();
   if (!reap()) return false;
-  if (stopped_ == StoppedFor::kNothing && !judge(*wait_status_, stopped_, words_, answer_)) {
+  if (stopped_ == StopReason::kNothing && !judge(*wait_status_, stopped_, words_, answer_)) {
     begin_publishing();
   }
   return finish(store);
 }
 
-void WorkerRun::stop(StoppedFor why) {
-  if (stopped_ != StoppedFor::kNothing) {
-    if (why == StoppedFor::kShutdown) stopped_ = why;
+void WorkerRun::stop(StopReason why) {
+  if (stopped_ != StopReason::kNothing) {
+    if (why == StopReason::kShutdown) stopped_ = why;
     return;
   }
   stopped_ = why;
@@ -118,10 +118,10 @@ void WorkerRun::report(JobStore& store) {
 
 void WorkerRun::watch_limits() {
   const auto now = SteadyClock::now();
-  if (now >= deadline_) stop(StoppedFor::kTime);
-  if (memory_bytes_ > 0 && stopped_ == StoppedFor::kNothing &&
+  if (now >= deadline_) stop(StopReason::kTime);
+  if (memory_bytes_ > 0 && stopped_ == StopReason::kNothing &&
       resident_bytes(worker_) > memory_bytes_) {
-    stop(StoppedFor::kMemory);
+    stop(StopReason::kMemory);
     kill_at_ = now;  // no grace period, because the worker might use even more memory
   }
   if (kill_at_ && now >= *kill_at_) signal_group(worker_, SIGKILL);
@@ -160,7 +160,7 @@ void WorkerRun::begin_publishing() {
 }
 
 bool WorkerRun::finish(JobStore& store) {
-  if (stopped_ == StoppedFor::kShutdown) return true;
+  if (stopped_ == StopReason::kShutdown) return true;
   if (publishing_.valid()) {
     if (publishing_.wait_for(milliseconds(0)) != std::future_status::ready) return false;
     published_ = publishing_.get();

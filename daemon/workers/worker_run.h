@@ -30,7 +30,7 @@ class WorkerRun {
   WorkerRun& operator=(const WorkerRun&) = delete;
 
   [[nodiscard]] std::int64_t job() const { return job_.id; }
-  [[nodiscard]] const std::string& owner() const { return job_.made.owner; }
+  [[nodiscard]] const std::string& owner() const { return job_.definition.owner; }
   /// Returns descriptors that become readable when step() has something to do.
   [[nodiscard]] std::vector<int> descriptors() const;
 
@@ -38,7 +38,7 @@ class WorkerRun {
   /// is stored, or the worker has ended after a stop for shutdown. A failed write is retried.
   [[nodiscard]] bool step(JobStore& store, std::int64_t now_ms);
   /// Requests the worker to end; it is killed after 3 s.
-  void stop(StoppedFor why);
+  void stop(StopReason why);
 
  private:
   /// The results of a successful worker.
@@ -67,7 +67,7 @@ class WorkerRun {
   ChildProcess worker_;
   std::int64_t memory_bytes_ = 0;
   Time deadline_;
-  StoppedFor stopped_ = StoppedFor::kNothing;
+  StopReason stopped_ = StopReason::kNothing;
   std::optional<Time> kill_at_;
   std::optional<int> wait_status_;
   std::string words_;                 // end of its stderr

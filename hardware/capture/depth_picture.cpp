@@ -21,7 +21,7 @@ constexpr std::array<image::Rgb8, 11> kViridis{{{68, 1, 84},
                                                 {189, 223, 38},
                                                 {253, 231, 37}}};
 constexpr image::Rgb8 kNotMeasured{150, 150, 150};
-constexpr double kLeftOut = 0.01;
+constexpr double kOutlierShare = 0.01;
 
 /// @param t  0: far, 1: near; clamped
 image::Rgb8 colour_of(double t) {
@@ -65,8 +65,8 @@ DepthPicture depth_picture(const depth_camera::DepthFrame& frame) {
       std::nth_element(seen.begin(), place, seen.end());
       return static_cast<int>(*place);
     };
-    out.nearest_mm = rank(kLeftOut);
-    out.farthest_mm = rank(1 - kLeftOut);
+    out.nearest_mm = rank(kOutlierShare);
+    out.farthest_mm = rank(1 - kOutlierShare);
     out.measured_share =
         static_cast<double>(seen.size()) / static_cast<double>(frame.depth_mm.size());
   }

@@ -30,12 +30,12 @@ Result<std::optional<depth_camera::DepthFrame>> next_frame(depth_camera::DepthCa
   }
 }
 
-Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& options,
-                          const Context& context, const std::function<void()>& alive) {
+Result<CapturedFrames> take_frames(depth_camera::DepthCamera& camera, const Options& options,
+                                   const Context& context, const std::function<void()>& alive) {
   const auto all = camera.info().frames;
   const double seconds = options.seconds.value_or(all ? kMostSeconds : kUsualSeconds);
   depth_camera::FrameWatch watch(camera.info().uri);
-  Taken out;
+  CapturedFrames out;
   std::optional<double> start_s;
   int index = 0;
   for (int count = 1;; ++count) {

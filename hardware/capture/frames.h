@@ -11,7 +11,7 @@
 namespace hydroprint::capture {
 
 /// A series of captured frames.
-struct Taken {
+struct CapturedFrames {
   std::vector<depth_camera::DepthFrame> frames;
   int lost = 0;      ///< frames counted by the camera but never received
   int left_out = 0;  ///< black frames, and frames identical to the previous one
@@ -26,7 +26,8 @@ struct Taken {
 
 /// Captures frames for the duration in the options, or until the recording ends. Errors: those of
 /// next_frame() and FrameWatch.
-[[nodiscard]] Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& options,
-                                        const Context& context, const std::function<void()>& alive);
+[[nodiscard]] Result<CapturedFrames> take_frames(depth_camera::DepthCamera& camera,
+                                                 const Options& options, const Context& context,
+                                                 const std::function<void()>& alive);
 
 }  // namespace hydroprint::capture

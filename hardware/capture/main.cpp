@@ -29,14 +29,14 @@ namespace hydroprint::capture {
 namespace {
 
 constexpr const char* kProgram = "hydroprint-capture";
-constexpr int kGivesWay = 10;
+constexpr int kNiceness = 10;
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void tell(const Error& error, bool json) {
-  worker::tell(error, exit_status(error), json, kProgram);
+void print_error(const Error& error, bool json) {
+  worker::print_error(error, exit_status(error), json, kProgram);
 }
 
 /// A recording in progress, under a temporary name until it is complete.
@@ -99,7 +99,7 @@ std::function<void()> bite(const Options& options, const worker::QuietStderr& qu
         name + ": the driver does not respond. Unplug the camera and plug it in again",
         "CAMERA_STALLED",
         {}};
-    tell(error, options.json);
+    print_error(error, options.json);
     ::_exit(static_cast<int>(exit_status(error)));
   };
 }
@@ -130,7 +130,7 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
   HP_ASSIGN_OR_RETURN(auto camera, open(options));
   watchdog.feed();
   HP_RETURN_IF_ERROR(recording.start(*camera));
-  HP_ASSIGN_OR_RETURN(const Taken taken,
+  HP_ASSIGN_OR_RETURN(const CapturedFrames taken,
                       take_frames(*camera, options, context, [&] { watchdog.feed(); }));
   HP_RETURN_IF_ERROR(recording.finish(*camera));
   const depth_camera::SourceInfo source = camera->info();
@@ -151,7 +151,7 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
 /// Runs until a signal or an error.
 Status live(const Options& options, worker::Termination& termination,
             const worker::QuietStderr& quiet) {
-  (void)::nice(kGivesWay);  // gives way to the rig and to computations
+  (void)::nice(kNiceness);  // gives way to the rig and to computations
   Context context;
   context.cancelled = [&termination] { return termination.requested(); };
   // Longer than the camera's own timeout, whose message is more specific.
@@ -194,7 +194,7 @@ int main_of(int argc, char** argv) {
   const worker::QuietStderr quiet;
   worker::Termination termination([&quiet, json] {
     quiet.restore();
-    tell({Code::kCancelled, "cancelled", {}, {}}, json);
+    print_error({Code::kCancelled, "cancelled", {}, {}}, json);
   });
   const Result<std::optional<Summary>> summary = run_guarded(command.options, termination, quiet);
   termination.decide();
@@ -203,7 +203,7 @@ int main_of(int argc, char** argv) {
     if (*summary) sum_up(**summary, json);
     return 0;
   }
-  tell(summary.error(), json);
+  print_error(summary.error(), json);
   return static_cast<int>(exit_status(summary.error()));
 }
 

@@ -70,10 +70,10 @@ CommandLine parse_command_line(int argc, char** argv) {
     if (!out.options.live && out.options.out.empty()) throw CLI::RequiredError("--out or --live");
     out.runs = true;
   } catch (const CLI::ParseError& error) {
-    std::ostringstream said, complaint;
-    const bool fine = app.exit(error, said, complaint) == 0;
+    std::ostringstream output, errors;
+    const bool fine = app.exit(error, output, errors) == 0;
     out.status = fine ? 0 : static_cast<int>(ExitStatus::kUsage);
-    out.text = fine ? said.str() : complaint.str();
+    out.text = fine ? output.str() : errors.str();
   }
   return out;
 }

@@ -11,7 +11,7 @@
 
 namespace hydroprint::capture {
 Status write_frames(const std::filesystem::path& folder, const depth_camera::SourceInfo& source,
-                    const Taken& taken, const Context& context) {
+                    const CapturedFrames& taken, const Context& context) {
   auto frames = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < taken.frames.size(); ++i) {
     HP_RETURN_IF_ERROR(check_cancelled(context));

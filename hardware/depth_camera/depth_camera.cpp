@@ -48,14 +48,14 @@ tl::unexpected<Error> unusable(const std::string& uri, const std::string& what) 
 }
 
 /// Records whether the camera has been unplugged.
-class Unplugging : public openni::OpenNI::DeviceDisconnectedListener {
+class DisconnectListener : public openni::OpenNI::DeviceDisconnectedListener {
  public:
-  explicit Unplugging(std::string uri) : uri_(std::move(uri)) {
+  explicit DisconnectListener(std::string uri) : uri_(std::move(uri)) {
     openni::OpenNI::addDeviceDisconnectedListener(this);
   }
-  ~Unplugging() { openni::OpenNI::removeDeviceDisconnectedListener(this); }
-  Unplugging(const Unplugging&) = delete;
-  Unplugging& operator=(const Unplugging&) = delete;
+  ~DisconnectListener() { openni::OpenNI::removeDeviceDisconnectedListener(this); }
+  DisconnectListener(const DisconnectListener&) = delete;
+  DisconnectListener& operator=(const DisconnectListener&) = delete;
 
   void onDeviceDisconnected(const openni::DeviceInfo* info) override {
     if (uri_ == info->getUri()) happened_ = true;
@@ -96,9 +96,9 @@ class OpenNiCamera : public DepthCamera {
   openni::Device device_;
   openni::VideoStream stream_;
   openni::Recorder recorder_;
-  std::unique_ptr<Unplugging> unplugging_;
+  std::unique_ptr<DisconnectListener> disconnect_listener_;
   SourceInfo info_;
-  int told_ = 0;  // frames of a recording
+  int frames_read_ = 0;  // frames of a recording
 };
 
 Status OpenNiCamera::open(const std::string& uri) {
@@ -133,7 +133,7 @@ Status OpenNiCamera::choose_mode() {
 }
 
 Status OpenNiCamera::start_device() {
-  unplugging_ = std::make_unique<Unplugging>(info_.uri);
+  disconnect_listener_ = std::make_unique<DisconnectListener>(info_.uri);
   HP_RETURN_IF_ERROR(choose_mode());
   std::array<char, 256> serial{};
   int size = serial.size() - 1;
@@ -185,8 +185,8 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
 tl::unexpected<Error> OpenNiCamera::no_frame() const {
   if (info_.frames) {
     return fail(Code::kDataLoss,
-                fmt::format("{}: ends after {} of {} frames. Record it again", info_.uri, told_,
-                            *info_.frames),
+                fmt::format("{}: ends after {} of {} frames. Record it again", info_.uri,
+                            frames_read_, *info_.frames),
                 "RECORDING_INVALID");
   }
   return fail(Code::kUnavailable,
@@ -195,7 +195,7 @@ tl::unexpected<Error> OpenNiCamera::no_frame() const {
 }
 
 Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds timeout) {
-  if (info_.frames && told_ >= *info_.frames) return std::optional<DepthFrame>();
+  if (info_.frames && frames_read_ >= *info_.frames) return std::optional<DepthFrame>();
   openni::VideoStream* stream = &stream_;
   int ready = 0;
   const auto wait =
@@ -203,7 +203,7 @@ Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds t
   // readFrame() alone would wait forever.
   const openni::Status status =
       openni::OpenNI::waitForAnyStream(&stream, 1, &ready, static_cast<int>(wait.count()));
-  if (unplugging_ && unplugging_->happened()) {
+  if (disconnect_listener_ && disconnect_listener_->happened()) {
     return fail(Code::kUnavailable,
                 info_.uri + ": the camera was disconnected. Check its cable and plug it in again",
                 "CAMERA_GONE");
@@ -233,7 +233,7 @@ Result<std::optional<DepthFrame>> OpenNiCamera::read() {
     const auto* const row = static_cast<const unsigned char*>(frame.getData()) + y * stride;
     std::memcpy(&out.depth_mm[y * width], row, 2 * width);
   }
-  ++told_;
+  ++frames_read_;
   return std::optional<DepthFrame>(std::move(out));
 }
 

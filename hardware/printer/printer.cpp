@@ -296,19 +296,19 @@ Status Printer::cancel(int id) const {
 Result<JobReport> Printer::follow(int id, const std::function<void(const JobReport&)>& on_change,
                                   const std::function<bool()>& is_cancelled) const {
   const Clock::time_point end = Clock::now() + timing_.job;
-  Clock::time_point heard = Clock::now();
+  Clock::time_point last_report = Clock::now();
   JobReport last;  // no job has the number 0
   bool asked_to_cancel = false;
   while (true) {
     auto report = job(id);
     if (!report && report.error().code != Code::kUnavailable) return report;
-    if (!report && Clock::now() - heard >= timing_.patience) {
+    if (!report && Clock::now() - last_report >= timing_.patience) {
       report.error().message += fmt::format(". Job {} may or may not have been printed", id);
       report.error().reason = kLost;
       return report;
     }
     if (report) {
-      heard = Clock::now();
+      last_report = Clock::now();
       if (!is_over(report->state)) report->printer_reasons = state_reasons();
       const bool is_news = last.id == 0 || *report != last;
       if (is_news && on_change) on_change(*report);

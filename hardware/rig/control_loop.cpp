@@ -19,11 +19,11 @@ using Kind = Event::Kind;
 
 constexpr double kPendingPatience_s = 2;
 constexpr double kStopAgain_s = 0.2;
-constexpr int kStillLooks = 2;
+constexpr int kStandstillPolls = 2;
 // Added to the watchdog's time before it is certain to have acted.
 constexpr double kWatchdogMargin_s = 0.05;
 // Added to the computed stopping time; an axis that still moves then does not obey.
-constexpr double kObeyMargin_s = 0.5;
+constexpr double kStopMargin_s = 0.5;
 // Added to the computed stopping time before an axis that cannot be polled counts as at rest.
 constexpr double kStandstillMargin_s = 0.5;
 
@@ -86,13 +86,13 @@ void ControlLoop::tick() {
 }
 
 void ControlLoop::take_stops() {
-  if (stop_channel_.take_trip()) {  // this thread was late with its polls
+  if (stop_channel_.consume_trip()) {  // this thread was late with its polls
     link_monitor_.lose();
     lose();
   }
-  const std::uint64_t asked = shared_.stops;
-  if (asked == stops_) return;
-  stops_ = asked;
+  const std::uint64_t stop_count = shared_.stops;
+  if (stop_count == stops_) return;
+  stops_ = stop_count;
   apply({Kind::kStop});
 }
 
@@ -100,7 +100,7 @@ void ControlLoop::take_stops() {
 Bits ControlLoop::settled(Bits bits) {
   if (condition_.state != State::kStopping) return bits;
   still_ = bits.moving ? 0 : still_ + 1;
-  bits.moving = still_ < kStillLooks;
+  bits.moving = still_ < kStandstillPolls;
   return bits;
 }
 
@@ -215,7 +215,7 @@ void ControlLoop::keep_going() {
   if (condition_.state != State::kStopping || !link_monitor_.is_up()) return;
   const double braking_s =
       config_.max_speed_mm_per_s / drive_.profile().stopping_deceleration_mm_per_s2;
-  if (seconds_since(stopping_since_) > braking_s + kObeyMargin_s) {
+  if (seconds_since(stopping_since_) > braking_s + kStopMargin_s) {
     link_monitor_.lose();
     lose();
   } else if (seconds_since(stop_sent_) >= kStopAgain_s) {

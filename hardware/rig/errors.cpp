@@ -83,8 +83,8 @@ std::string remedy(const Words& why) {
 }  // namespace
 
 Error refused(Refusal refusal, const Condition& condition) {
-  const Answer said = answer(refusal, condition.state);
-  Error out{said.code, said.text, std::string(reason(refusal)), {}};
+  const Answer entry = answer(refusal, condition.state);
+  Error out{entry.code, entry.text, std::string(reason(refusal)), {}};
   out.metadata["state"] = name(condition.state);
   if (condition.cause == Cause::kNone) return out;
   out.metadata["cause"] = name(condition.cause);

@@ -14,19 +14,21 @@ constexpr int kTick_ms = 10;
 }  // namespace
 
 StopChannel::StopChannel(const drive::Drive& drive)
-    : line_(drive), bell_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), thread_([this] { run(); }) {}
+    : line_(drive),
+      wake_event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+      thread_([this] { run(); }) {}
 
 StopChannel::~StopChannel() {
   end_ = true;
   ring();
   thread_.join();
-  ::close(bell_);
+  ::close(wake_event_);
 }
 
 void StopChannel::ring() noexcept {
   const std::uint64_t one = 1;
   // The write fails only if the counter is full, and then the thread is awake anyway.
-  if (::write(bell_, &one, sizeof one) < 0) return;
+  if (::write(wake_event_, &one, sizeof one) < 0) return;
 }
 
 void StopChannel::stop() noexcept {
@@ -52,10 +54,10 @@ bool StopChannel::owner_is_late() const {
 
 void StopChannel::run() {
   while (!end_ || stop_) {
-    pollfd bell{bell_, POLLIN, 0};
-    ::poll(&bell, 1, in_motion_ ? kTick_ms : -1);
-    std::uint64_t rings = 0;
-    if (::read(bell_, &rings, sizeof rings) < 0) rings = 0;
+    pollfd wake{wake_event_, POLLIN, 0};
+    ::poll(&wake, 1, in_motion_ ? kTick_ms : -1);
+    std::uint64_t wakeups = 0;
+    if (::read(wake_event_, &wakeups, sizeof wakeups) < 0) wakeups = 0;
     if (owner_is_late()) {
       in_motion_ = false;  // only once
       tripped_ = true;

@@ -35,7 +35,7 @@ class StopChannel {
   /// poll.
   void watch(bool in_motion, TimePoint clean) noexcept;
   /// Returns true once after the channel has stopped the drive because the control loop was late.
-  [[nodiscard]] bool take_trip() noexcept { return tripped_.exchange(false); }
+  [[nodiscard]] bool consume_trip() noexcept { return tripped_.exchange(false); }
 
  private:
   void run();
@@ -43,7 +43,7 @@ class StopChannel {
   void ring() noexcept;
 
   drive::StopLine line_;
-  int bell_;  // eventfd
+  int wake_event_;  // eventfd
   std::atomic<bool> stop_{false}, stopping_{false}, prepare_{false}, tripped_{false}, end_{false};
   std::atomic<bool> in_motion_{false};
   std::atomic<TimePoint::rep> clean_{0};

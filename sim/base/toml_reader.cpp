@@ -51,12 +51,12 @@ struct TomlReader::Shared {
   toml::table root;
   toml::table none;  // stands for a missing table
   std::optional<Error> error;
-  std::map<const toml::table*, std::set<std::string, std::less<>>> asked;
+  std::map<const toml::table*, std::set<std::string, std::less<>>> used_keys;
 };
 
 TomlReader::TomlReader(std::shared_ptr<Shared> shared, const toml::table* table, std::string name)
     : shared_(std::move(shared)), table_(table), name_(std::move(name)) {
-  shared_->asked[table_];
+  shared_->used_keys[table_];
 }
 
 Result<TomlReader> TomlReader::open(const std::filesystem::path& path) {
@@ -87,7 +87,7 @@ void TomlReader::refuse(std::string_view key, const std::string& what) {
 }
 
 const toml::node* TomlReader::find(std::string_view key, bool required) {
-  shared_->asked[table_].emplace(key);
+  shared_->used_keys[table_].emplace(key);
   const toml::node* node = table_->get(key);
   if (node == nullptr && required) refuse(key, "is missing. Add it");
   return node;
@@ -207,14 +207,14 @@ Status TomlReader::finish() const {
   if (shared_->error) return tl::unexpected(*shared_->error);
   const toml::key* unknown = nullptr;
   std::string known;
-  for (const auto& [table, asked] : shared_->asked) {
+  for (const auto& [table, used_keys] : shared_->used_keys) {
     for (const auto& entry : *table) {
       const toml::key& key = entry.first;
-      if (asked.contains(key.str())) continue;
+      if (used_keys.contains(key.str())) continue;
       if (unknown != nullptr && unknown->source().begin < key.source().begin) continue;
       unknown = &key;
       known.clear();
-      for (const std::string& name : asked) known += (known.empty() ? "" : ", ") + name;
+      for (const std::string& name : used_keys) known += (known.empty() ? "" : ", ") + name;
     }
   }
   if (unknown == nullptr) return {};

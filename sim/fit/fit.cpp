@@ -28,7 +28,7 @@ constexpr double kFineFactor = 0.6;
 /// The error grows with the square of mesh size and step. Of the difference between the usual and
 /// the finer result, this fraction remains as the error of the finer one.
 constexpr double kErrorLeft = kFineFactor * kFineFactor / (1 - kFineFactor * kFineFactor);
-constexpr double kDipsOfAFineOne = 4;
+constexpr double kFineDipCost = 4;
 constexpr int kMostOutlierRounds = 3;
 
 Domain domain_of(const std::vector<Parameter>& free, const film::Profile& start) {
@@ -136,7 +136,7 @@ class Fitting {
 
   Result<Places> predict(Predictor& predictor, const film::Profile& profile, double weight) {
     // The expected number of dips: about three rounds of derivatives, and the finer dips.
-    const double expected = 7.0 * static_cast<double>(options_.free.size()) + 2 * kDipsOfAFineOne;
+    const double expected = 7.0 * static_cast<double>(options_.free.size()) + 2 * kFineDipCost;
     context_.progress("fit", std::min(0.99, work_ / expected));
     work_ += weight;
     ++out_.dips;
@@ -203,7 +203,7 @@ class Fitting {
     Predictor fine(model_, pipeline::scaled_resolution(dip_, kFineFactor));
     const auto fine_residuals = [&](Places& predicted) -> Result<VectorXd> {
       HP_ASSIGN_OR_RETURN(predicted,
-                          predict(fine, profile_of(free_, u_, dip_.profile), kDipsOfAFineOne));
+                          predict(fine, profile_of(free_, u_, dip_.profile), kFineDipCost));
       return residuals_of(predicted);
     };
     Places after;

@@ -27,8 +27,8 @@ void release(cmsContext, void* memory) { std::free(memory); }
 
 /// Stores the library's first message.
 void note_error(cmsContext context, cmsUInt32Number, const char* text) {
-  auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
-  if (said != nullptr && said->empty()) *said = text;
+  auto* message = static_cast<std::string*>(cmsGetContextUserData(context));
+  if (message != nullptr && message->empty()) *message = text;
 }
 
 /// Checks the length, because the library ignores missing data at the end of the file.
@@ -58,7 +58,7 @@ class PrinterColours::LittleCms {
     memory.MallocPtr = allocate;
     memory.ReallocPtr = reallocate;
     memory.FreePtr = release;
-    context_ = cmsCreateContext(&memory, &said_);
+    context_ = cmsCreateContext(&memory, &message_);
     cmsSetLogErrorHandlerTHR(context_, note_error);
   }
   ~LittleCms() {
@@ -99,13 +99,13 @@ class PrinterColours::LittleCms {
 
  private:
   [[nodiscard]] tl::unexpected<Error> damaged(const std::string& name) const {
-    const std::string why = said_.substr(0, said_.find('\n'));
+    const std::string why = message_.substr(0, message_.find('\n'));
     return fail(Code::kDataLoss, name + ": damaged ICC profile" +
                                      (why.empty() ? "" : " (" + why + ")") +
                                      ". Download or export the file again");
   }
 
-  std::string said_;
+  std::string message_;
   cmsContext context_ = nullptr;
   cmsHPROFILE profile_ = nullptr;
   cmsHTRANSFORM transform_ = nullptr;

@@ -12,7 +12,7 @@ namespace {
 using Uvs = std::array<Eigen::Vector2f, 3>;
 
 constexpr int kSide = 1024;
-constexpr double kWorthSaying = 0.005;
+constexpr double kReportedShare = 0.005;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -95,12 +95,12 @@ Warnings uv_warnings(const Model& model) {
   if (model.corner_uvs.empty()) return warnings;
   const double overlapping = overlapping_share(model);
   const double mirrored = mirrored_share(model);
-  if (overlapping > kWorthSaying)
+  if (overlapping > kReportedShare)
     warnings.push_back({"uv_overlapping",
                         percent(overlapping) + " of the texture in use is used by several faces: "
                                                "they all get the same picture",
                         model.path.string()});
-  if (mirrored > kWorthSaying)
+  if (mirrored > kReportedShare)
     warnings.push_back({"uv_mirrored",
                         percent(mirrored) + " of the texture in use is mirrored on the object: it "
                                             "is printed that way",

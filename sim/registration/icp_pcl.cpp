@@ -18,10 +18,10 @@ using Points = pcl::PointCloud<Point>;
 
 constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr double kFarthest_mm = 1e4;  ///< PCL's search aborts the program on NaN and infinity
-constexpr double kLever_mm = 50;      ///< lever arm by which turns are compared with shifts
-constexpr double kLeastTold = 2e-3;   ///< smallest eigenvalue used, relative to the largest
-constexpr double kSettled = 1e-8;     ///< PCL's limit of squared steps, in rad^2 and mm^2 alike
+constexpr double kFarthest_mm = 1e4;       ///< PCL's search aborts the program on NaN and infinity
+constexpr double kLever_mm = 50;           ///< lever arm by which turns are compared with shifts
+constexpr double kLeastEigenvalue = 2e-3;  ///< smallest eigenvalue used, relative to the largest
+constexpr double kSettled = 1e-8;  ///< PCL's limit of squared steps, in rad^2 and mm^2 alike
 
 Points::Ptr to_pcl(std::span<const SurfacePoint> points) {
   auto out = pcl::make_shared<Points>();
@@ -92,7 +92,7 @@ class Estimation : public pcl::registration::TransformationEstimationPointToPlan
       pull += normal.dot(place(target, pair.index_match) - from) * row;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> axes(squares);
-    const double least = kLeastTold * axes.eigenvalues()[5];
+    const double least = kLeastEigenvalue * axes.eigenvalues()[5];
     Vector6 along = axes.eigenvectors().transpose() * pull;
     for (int k = 0; k < 6; ++k)
       along[k] = axes.eigenvalues()[k] > least ? along[k] / axes.eigenvalues()[k] : 0;

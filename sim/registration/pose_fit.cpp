@@ -26,20 +26,20 @@ constexpr double kOnSurface = 0.3;  ///< robust weight above which a point count
 /// this camera's own, which may be smaller (kOwn). The fit first converges with kUsual. Far from
 /// the solution, kOwn would drop the few points of a narrow face permanently, and with them the
 /// motions that only these points determine.
-enum class Gate { kUsual, kOwn };
+enum class NoiseModel { kUsual, kOwn };
 
 /// Residuals in units of noise, and their robust weights.
-struct Judged {
+struct WeightedResiduals {
   std::vector<double> off, weights;
   double spread = 1;
 };
 
-Judged judged(std::span<const Pair> pairs, Gate gate) {
-  Judged out;
+WeightedResiduals weighted_residuals(std::span<const Pair> pairs, NoiseModel noise) {
+  WeightedResiduals out;
   out.off.reserve(pairs.size());
   for (const Pair& pair : pairs)
     out.off.push_back(pair.residual_mm /
-                      (gate == Gate::kOwn ? pair.sigma_mm() : pair.usual_sigma_mm()));
+                      (noise == NoiseModel::kOwn ? pair.sigma_mm() : pair.usual_sigma_mm()));
   out.spread = spread_of(out.off);
   out.weights.reserve(pairs.size());
   for (const double off : out.off) out.weights.push_back(robust_weight(off, out.spread));
@@ -65,9 +65,10 @@ struct Split {
   }
 };
 
-/// @param told  number of weak directions once it is final: those with the largest errors.
+/// @param weak_count  number of weak directions once it is final: those with the largest errors.
 ///              Directions without any information are weak in addition
-Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::Index> told = {}) {
+Split split(const Normals& normals, double weak_sigma_mm,
+            std::optional<Eigen::Index> weak_count = {}) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
   Split out{solver.eigenvectors(), solver.eigenvalues(), Vector6::Zero(), {}};
   const double nil = kNil * std::max(1.0, out.information.maxCoeff());
@@ -82,16 +83,17 @@ Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::I
   Vector6 sorted = out.sigma_mm;
   std::sort(sorted.begin(), sorted.end());
   // A direction near the limit must not change between weak and strong from step to step.
-  if (told) weak_sigma_mm = *told == 6 ? 0 : *told == 0 ? INFINITY : sorted[5 - *told];
+  if (weak_count)
+    weak_sigma_mm = *weak_count == 6 ? 0 : *weak_count == 0 ? INFINITY : sorted[5 - *weak_count];
   // Without any information a step along the direction is impossible.
   out.weak = out.sigma_mm.array() > weak_sigma_mm || out.information.array() <= nil;
   return out;
 }
 
 /// The pairs at one pose, with their weights and normal equations.
-struct Look {
+struct LinearSystem {
   std::vector<Pair> pairs;
-  Judged judged;
+  WeightedResiduals residuals;
   Eigen::Vector3d centre;
   Normals normals;
 };
@@ -109,30 +111,31 @@ class Fitter {
         length_mm_(shape.radius_mm()) {}
 
   Result<PoseFit> fit(const Pose& start) const {
-    Way way{start, std::max(options_.reach_mm, kLeastReach_mm), {}};
-    if (camera_.pattern.is_known()) HP_RETURN_IF_ERROR(settle(way, Gate::kUsual));
-    way.weak.reset();
-    HP_RETURN_IF_ERROR(settle(way, Gate::kOwn));
-    HP_ASSIGN_OR_RETURN(Look look, look_from(way.pose, way.reach, Gate::kOwn));
-    return told(look, way.pose, way.weak);
+    Iterate iterate{start, std::max(options_.reach_mm, kLeastReach_mm), {}};
+    if (camera_.pattern.is_known()) HP_RETURN_IF_ERROR(settle(iterate, NoiseModel::kUsual));
+    iterate.weak.reset();
+    HP_RETURN_IF_ERROR(settle(iterate, NoiseModel::kOwn));
+    HP_ASSIGN_OR_RETURN(LinearSystem system,
+                        linear_system_at(iterate.pose, iterate.reach, NoiseModel::kOwn));
+    return result(system, iterate.pose, iterate.weak);
   }
 
  private:
   /// State of the iteration.
-  struct Way {
+  struct Iterate {
     Pose pose;
     double reach;
     std::optional<Eigen::Index> weak;  ///< number of weak directions, once it is settled
   };
 
-  Status settle(Way& way, Gate gate) const {
-    auto& [pose, reach, weak] = way;
+  Status settle(Iterate& iterate, NoiseModel noise) const {
+    auto& [pose, reach, weak] = iterate;
     for (int i = 0; i < options_.most_iterations; ++i) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
-      HP_ASSIGN_OR_RETURN(const Look look, look_from(pose, reach, gate));
-      const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
-      const Vector6 step = step_of(look, parts, pose);
-      pose = motion(unscaled(step), look.centre) * pose;
+      HP_ASSIGN_OR_RETURN(const LinearSystem system, linear_system_at(pose, reach, noise));
+      const Split parts = split(system.normals, options_.weak_sigma_mm, weak);
+      const Vector6 step = step_of(system, parts, pose);
+      pose = motion(unscaled(step), system.centre) * pose;
       const bool at_reach = reach <= kLeastReach_mm;
       reach = std::max(kLeastReach_mm, kReachShrinks * reach);
       if (!at_reach) continue;
@@ -146,8 +149,8 @@ class Fitter {
     return reach > kLeastReach_mm ? Pairing::kNearest : Pairing::kOnRay;
   }
 
-  Result<Look> look_from(const Pose& pose, double reach, Gate gate) const {
-    Look out;
+  Result<LinearSystem> linear_system_at(const Pose& pose, double reach, NoiseModel noise) const {
+    LinearSystem out;
     HP_ASSIGN_OR_RETURN(out.pairs,
                         pair_up(shape_, points_, pose, pairing_at(reach), reach, context_));
     if (out.pairs.size() < kFewestPairs)
@@ -157,9 +160,9 @@ class Fitter {
               "only {} scan points lie near the surface. Check that it is in the camera's view",
               out.pairs.size()),
           "TOO_FEW_POINTS");
-    out.judged = judged(out.pairs, gate);
+    out.residuals = weighted_residuals(out.pairs, noise);
     out.centre = pose * shape_.centroid();
-    out.normals = normal_equations(out.pairs, out.judged.weights, out.centre, length_mm_);
+    out.normals = normal_equations(out.pairs, out.residuals.weights, out.centre, length_mm_);
     return out;
   }
 
@@ -170,39 +173,41 @@ class Fitter {
   [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
 
   /// Returns the Gauss-Newton step, and along weak directions the step to the nominal pose.
-  [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
-    const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
-    const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;
+  [[nodiscard]] Vector6 step_of(const LinearSystem& system, const Split& parts,
+                                const Pose& pose) const {
+    const Vector6 to_nominal = twist_between(pose, nominal_, system.centre).cwiseQuotient(scale());
+    const Vector6 step = parts.inverse() * system.normals.pull + parts.onto_weak() * to_nominal;
     return step * std::min(1.0, kMostStep_mm / std::max(step.norm(), 1e-300));
   }
 
-  [[nodiscard]] PoseFit told(Look& look, const Pose& pose,
-                             const std::optional<Eigen::Index>& weak) const {
-    add_camera(look.normals, look.pairs, look.judged.weights, look.centre, length_mm_, camera_);
+  [[nodiscard]] PoseFit result(LinearSystem& system, const Pose& pose,
+                               const std::optional<Eigen::Index>& weak) const {
+    add_camera(system.normals, system.pairs, system.residuals.weights, system.centre, length_mm_,
+               camera_);
     // If residuals exceed their noise, the error of the result grows by the same factor.
-    look.normals.scatter *= look.judged.spread * look.judged.spread;
-    const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
+    system.normals.scatter *= system.residuals.spread * system.residuals.spread;
+    const Split parts = split(system.normals, options_.weak_sigma_mm, weak);
     const Matrix6 inverse = parts.inverse(), onto_weak = parts.onto_weak();
     Vector6 nominal;
     nominal << Eigen::Vector3d::Constant(options_.nominal_turn_sigma_rad * length_mm_),
         Eigen::Vector3d::Constant(options_.nominal_shift_sigma_mm);
-    const Matrix6 scaled = inverse * look.normals.scatter * inverse +
+    const Matrix6 scaled = inverse * system.normals.scatter * inverse +
                            onto_weak * nominal.cwiseAbs2().asDiagonal() * onto_weak;
     PoseFit out;
     out.X_CB = pose;
-    out.centre_mm = look.centre;
+    out.centre_mm = system.centre;
     out.covariance = scale().asDiagonal() * scaled * scale().asDiagonal();
-    out.camera_gain = scale().asDiagonal() * (inverse * look.normals.camera);
+    out.camera_gain = scale().asDiagonal() * (inverse * system.normals.camera);
     for (int k = 0; k < 6; ++k)
       if (parts.weak[k]) out.weak.push_back({unscaled(parts.directions.col(k)), parts.sigma_mm[k]});
-    judge(look.pairs, out);
+    judge(system.pairs, out);
     return out;
   }
 
   /// Uses kUsual, so that the criteria for a match do not depend on how well the camera is
   /// calibrated.
   void judge(std::span<const Pair> pairs, PoseFit& out) const {
-    const Judged usual = judged(pairs, Gate::kUsual);
+    const WeightedResiduals usual = weighted_residuals(pairs, NoiseModel::kUsual);
     double squares_mm = 0, squares = 0;
     std::size_t on = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

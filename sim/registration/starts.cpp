@@ -17,7 +17,7 @@ constexpr std::size_t kEyeSamples = 300;
 constexpr double kAround_rad = 20 * std::numbers::pi / 180;
 constexpr double kFar_mm = 40, kNear_mm = 10;
 constexpr int kIterations = 15;
-constexpr std::size_t kGoOn = 12;  ///< best starts, which are aligned a second time
+constexpr std::size_t kRealignedStarts = 12;  ///< best starts, which are aligned a second time
 constexpr double kCapped_mm = 6;
 constexpr double kAlike_rad = 3 * std::numbers::pi / 180;
 constexpr double kAlike_mm = 3;
@@ -125,11 +125,11 @@ Result<std::vector<Pose>> rough_alignments(const Shape& shape,
                      [](const Rough& a, const Rough& b) { return a.cost < b.cost; });
   };
   best_first();
-  const auto go_on = [&](std::size_t i) -> Status {
-    if (i < kGoOn || rough[i].nominal) align(i, kNear_mm);
+  const auto realign = [&](std::size_t i) -> Status {
+    if (i < kRealignedStarts || rough[i].nominal) align(i, kNear_mm);
     return {};
   };
-  HP_RETURN_IF_ERROR(parallel_for(context, "", rough.size(), go_on));
+  HP_RETURN_IF_ERROR(parallel_for(context, "", rough.size(), realign));
   best_first();
   std::vector<Pose> out;
   for (const Rough& r : rough) {

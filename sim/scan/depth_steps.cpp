@@ -11,12 +11,12 @@ constexpr int kScalesAside = 1000, kShifts = 25;
 constexpr double kScaleStep = 5e-5, kShiftStep = 1.0 / kShifts;
 constexpr double kMostOff = kScalesAside * kScaleStep;
 constexpr std::size_t kMost_mm = 10000;
-constexpr std::size_t kOften = 8;         ///< pixels; fewer may be outliers
+constexpr std::size_t kLeastPixels = 8;   ///< pixels; fewer may be outliers
 constexpr double kHalf = 0.5 + 1e-4;      ///< rounding error in mm
 constexpr double kCoarseSlack_mm = 0.12;  ///< extra error allowed in the coarse search
 constexpr double kFinest = 1e-7;
 /// Negative logarithm of the probability (1e-11) that wrong steps explain all depths.
-constexpr double kSure = 25;
+constexpr double kLeastConfidence = 25;
 
 struct Steps {
   double scale_mm, shift;
@@ -44,11 +44,11 @@ std::vector<double> often_told(const DepthCounts& counts) {
   if (!counts.are_whole) return out;
   const auto first = static_cast<std::size_t>(std::sqrt((1 + kMostOff) * kUsualScale_mm)) + 1;
   for (std::size_t depth = first; depth < counts.of_mm.size(); ++depth)
-    if (counts.of_mm[depth] >= kOften) out.push_back(static_cast<double>(depth));
+    if (counts.of_mm[depth] >= kLeastPixels) out.push_back(static_cast<double>(depth));
   return out;
 }
 
-double sureness(const std::vector<double>& depths) {
+double confidence(const std::vector<double>& depths) {
   double out = 0;
   for (const double depth : depths) out += std::log(depth * depth / kUsualScale_mm);
   return out;
@@ -112,7 +112,7 @@ float DepthSteps::before_rounding_mm(float reported_mm) const {
 
 std::optional<DepthSteps> find_depth_steps(const DepthCounts& counts) {
   const auto depths = often_told(counts);
-  if (sureness(depths) < kSure) return {};
+  if (confidence(depths) < kLeastConfidence) return {};
   const Steps steps = closest(depths);
   if (worst_mm(depths, steps, INFINITY) > kHalf) return {};
   DepthSteps out{steps.scale_mm, steps.shift - std::floor(steps.shift), {0}};

@@ -110,7 +110,7 @@ Pose foreseen(const std::vector<Pose>& X_WC, std::span<const double> times_s) {
   return out;
 }
 
-Error told(Error error, const SweepTask& task, std::size_t frame) {
+Error with_frame(Error error, const SweepTask& task, std::size_t frame) {
   error.message =
       fmt::format("depth frame {} of {} (at {:.1f} s): {}", frame + 1, task.frames.size(),
                   task.times_s[frame] - task.times_s[0], error.message);
@@ -143,7 +143,7 @@ Result<double> place(const DepthFrame& frame, const SweepTask& task, const Optic
   path.X_WC.push_back(found ? found->X_WC : path.X_WC.back());
   path.is_placed.push_back(found.has_value());
   if (is_lost_for_good(path))
-    return tl::unexpected(told(found.error(), task, path.X_WC.size() - 1));
+    return tl::unexpected(with_frame(found.error(), task, path.X_WC.size() - 1));
   return found ? found->rms_mm : 0;
 }
 

@@ -41,11 +41,11 @@ Pose centred(const mesh::Model& model, const Eigen::AngleAxisd& rotation) {
 Result<const Body*> ExperimentContext::body(const std::string& name, const Context& context) {
   std::unique_ptr<Body>& kept = bodies_[name];
   if (!kept) {
-    auto made = std::make_unique<Body>();
-    HP_ASSIGN_OR_RETURN(made->model, sample::make_model(name.substr(0, name.find('-'))));
-    HP_ASSIGN_OR_RETURN(made->paint, image::load_paint(made->model, {}, context));
-    made->X_FO = centred(made->model, rotation_of(name));
-    kept = std::move(made);
+    auto result = std::make_unique<Body>();
+    HP_ASSIGN_OR_RETURN(result->model, sample::make_model(name.substr(0, name.find('-'))));
+    HP_ASSIGN_OR_RETURN(result->paint, image::load_paint(result->model, {}, context));
+    result->X_FO = centred(result->model, rotation_of(name));
+    kept = std::move(result);
   }
   return kept.get();
 }
@@ -85,9 +85,9 @@ Result<const Plan*> ExperimentContext::plan(const std::string& name, const Conte
   std::unique_ptr<Plan>& kept = plans_[name];
   if (!kept) {
     HP_ASSIGN_OR_RETURN(const Body* held, body(name, context));
-    HP_ASSIGN_OR_RETURN(Plan made,
+    HP_ASSIGN_OR_RETURN(Plan result,
                         make_plan(*held, options(*held, Fineness::kUsual), 1, film_dpi(), context));
-    kept = std::make_unique<Plan>(std::move(made));
+    kept = std::make_unique<Plan>(std::move(result));
   }
   return kept.get();
 }

@@ -151,11 +151,11 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {
-  constexpr double kSome = 50000, kPerPoint = 100, kPerCoarsest = 8;
+  constexpr double kBaseVertices = 50000, kPerPoint = 100, kPerCoarsest = 8;
   double points = 0;
   for (const auto& loop : waterlines) points += static_cast<double>(loop.size());
   const double coarsest = outline.size_mm().prod() / (size.most_mm * size.most_mm);
-  return static_cast<std::size_t>(kSome + kPerPoint * points + kPerCoarsest * coarsest);
+  return static_cast<std::size_t>(kBaseVertices + kPerPoint * points + kPerCoarsest * coarsest);
 }
 
 FilmMesh extract(const Triangulation& triangulation, const film::Outline& outline) {

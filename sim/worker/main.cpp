@@ -71,7 +71,7 @@ Result<Finished> run(const CommandLine& command, Termination& termination, int s
 }
 
 int refuse(const Error& error, ExitStatus status, bool json) {
-  tell(error, status, json);
+  print_error(error, status, json);
   return static_cast<int>(status);
 }
 
@@ -103,7 +103,7 @@ int main_of(int argc, char** argv) {
   const QuietStderr quiet;
   Termination termination([&quiet, json] {
     quiet.restore();
-    tell({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
+    print_error({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
   });
   const Result<Finished> finished = run(command, termination, quiet.own());
   termination.decide();

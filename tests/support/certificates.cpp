@@ -11,14 +11,14 @@
 namespace hydroprint::testing {
 namespace {
 
-struct Freeing {
+struct Deleter {
   void operator()(BIO* bio) const { BIO_free(bio); }
   void operator()(X509* certificate) const { X509_free(certificate); }
   void operator()(EVP_PKEY* key) const { EVP_PKEY_free(key); }
   void operator()(X509_EXTENSION* extension) const { X509_EXTENSION_free(extension); }
 };
 template <class T>
-using Owned = std::unique_ptr<T, Freeing>;
+using Owned = std::unique_ptr<T, Deleter>;
 
 Owned<EVP_PKEY> make_key() { return Owned<EVP_PKEY>(EVP_EC_gen("P-256")); }
 

@@ -25,12 +25,12 @@ constexpr int kTries = 3;
 // Less than the tolerance of any of these tests.
 constexpr double kTolerated_s = 0.02;
 constexpr int kWatchedProcessors = 8;
-constexpr std::chrono::milliseconds kBeat{2};
+constexpr std::chrono::milliseconds kInterval{2};
 
 /// Measures the largest delay of many short sleeps, on each of the first processors.
-class Lateness {
+class DelayMeter {
  public:
-  Lateness() {
+  DelayMeter() {
     cpu_set_t allowed;
     CPU_ZERO(&allowed);
     if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -38,9 +38,9 @@ class Lateness {
       if (CPU_ISSET(cpu, &allowed)) watches_.emplace_back([this, cpu] { watch(cpu); });
     }
   }
-  ~Lateness() { (void)end(); }
-  Lateness(const Lateness&) = delete;
-  Lateness& operator=(const Lateness&) = delete;
+  ~DelayMeter() { (void)end(); }
+  DelayMeter(const DelayMeter&) = delete;
+  DelayMeter& operator=(const DelayMeter&) = delete;
 
   /// Ends the measurement and returns the largest delay.
   double end() {
@@ -57,7 +57,7 @@ class Lateness {
     CPU_SET(cpu, &one);
     ::pthread_setaffinity_np(::pthread_self(), sizeof one, &one);
     while (!end_) {
-      const Clock::time_point due = Clock::now() + kBeat;
+      const Clock::time_point due = Clock::now() + kInterval;
       std::this_thread::sleep_until(due);
       const double late_s = std::chrono::duration<double>(Clock::now() - due).count();
       double worst_s = worst_s_;
@@ -85,9 +85,9 @@ int main(int argc, char** argv) {
   again.push_back(nullptr);
   ::testing::InitGoogleTest(&argc, argv);
   if (GTEST_FLAG_GET(list_tests)) return RUN_ALL_TESTS();
-  Lateness lateness;
+  DelayMeter meter;
   const int result = RUN_ALL_TESTS();
-  const double late_s = lateness.end();
+  const double late_s = meter.end();
   const int next = tries_before() + 1;
   if (result == 0 || late_s < kTolerated_s) return result;
   std::cout << "The machine was " << 1000 * late_s << " ms late in try " << next << " of " << kTries

@@ -33,17 +33,17 @@ const kSilence_ms = 12_000;
 let source: EventSource | undefined;
 let wait_ms = kFirstWait_ms;
 let timer: number | undefined;
-let heard = 0;
+let lastMessage_ms = 0;
 
 /** Opens the stream and keeps it open. */
 export function connect(): void {
   window.clearTimeout(timer);
   source?.close();
-  heard = Date.now();
+  lastMessage_ms = Date.now();
   const opened = new EventSource(address('events:watch', { topics: kTopics }));
   source = opened;
   opened.onopen = () => {
-    heard = Date.now();
+    lastMessage_ms = Date.now();
     wait_ms = kFirstWait_ms;
     link.value = 'live';
     beginnings.value += 1;
@@ -71,7 +71,7 @@ function again(): void {
 }
 
 function take(topic: string, event: MessageEvent<string>): void {
-  heard = Date.now();
+  lastMessage_ms = Date.now();
   if (link.value !== 'live') link.value = 'live';
   let news: unknown;
   try {
@@ -83,7 +83,7 @@ function take(topic: string, event: MessageEvent<string>): void {
 }
 
 function checkSilence(): void {
-  if (!source || document.hidden || Date.now() - heard < kSilence_ms) return;
+  if (!source || document.hidden || Date.now() - lastMessage_ms < kSilence_ms) return;
   link.value = 'lost';
   connect();
 }

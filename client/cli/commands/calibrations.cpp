@@ -39,7 +39,7 @@ void print_table(const v1::ListCalibrationsResponse& list) {
   }
 }
 
-void tell(const Program& program, const v1::Calibration& calibration) {
+void print_result(const Program& program, const v1::Calibration& calibration) {
   if (program.json())
     print(calibration);
   else
@@ -65,7 +65,7 @@ Status show(Program& program, const std::string& name) {
 Status activate(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::activate_calibration(program.daemon(), calibration_name(name)));
-  tell(program, found);
+  print_result(program, found);
   return {};
 }
 
@@ -83,9 +83,9 @@ Status enter(Program& program, const EnterOptions& options) {
   v1::Calibration entered = options.entered;
   HP_ASSIGN_OR_RETURN(*entered.mutable_pose(), client::read_pose_file(options.pose));
   HP_RETURN_IF_ERROR(Inputs(program.daemon()).add_to(entered, "mesh", options.mesh));
-  HP_ASSIGN_OR_RETURN(const v1::Calibration made,
+  HP_ASSIGN_OR_RETURN(const v1::Calibration calibration,
                       client::create_calibration(program.daemon(), entered));
-  tell(program, made);
+  print_result(program, calibration);
   return {};
 }
 

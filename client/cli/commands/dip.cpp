@@ -63,7 +63,8 @@ Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::J
   return abort_dip(program, job.name());
 }
 
-void tell(const Program& program, const v1::Job& job, const std::vector<Downloaded>& files) {
+void print_result(const Program& program, const v1::Job& job,
+                  const std::vector<Downloaded>& files) {
   if (program.json()) {
     Json json = to_json(job);
     json["files"] = files_json(files);
@@ -81,7 +82,7 @@ Status finish(const Program& program, const v1::Job& job, const DipOptions& opti
   if (!options.out.empty()) {
     HP_ASSIGN_OR_RETURN(files, fetch_record(daemon, job.name(), options.out));
   }
-  tell(program, job, files);
+  print_result(program, job, files);
   if (job.state() == v1::Job::SUCCEEDED) return {};
   return tl::unexpected(why(job));
 }

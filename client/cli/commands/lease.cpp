@@ -29,7 +29,7 @@ struct LeaseOptions {
   }
 };
 
-void tell(const Program& program, const v1::Lease& lease) {
+void print_result(const Program& program, const v1::Lease& lease) {
   if (program.json())
     print(lease);
   else
@@ -49,7 +49,7 @@ Status show_lease(Program& program) {
   const auto lease = client::get_lease(program.daemon());
   if (!lease && lease.error().reason != "LEASE_NOT_FOUND") return tl::unexpected(lease.error());
   if (lease)
-    tell(program, *lease);
+    print_result(program, *lease);
   else if (program.json())
     print(Json::object());
   else
@@ -64,7 +64,7 @@ Status acquire(Program& program, const LeaseOptions& options) {
     static_cast<void>(client::release_lease(program.daemon(), lease.lease_id()));
     return kept;
   }
-  tell(program, lease);
+  print_result(program, lease);
   return {};
 }
 
@@ -72,7 +72,7 @@ Status renew(Program& program, const LeaseOptions& options) {
   HP_ASSIGN_OR_RETURN(const std::string lease_id, our_lease(program));
   HP_ASSIGN_OR_RETURN(const v1::Lease lease,
                       client::renew_lease(program.daemon(), lease_id, options.time()));
-  tell(program, lease);
+  print_result(program, lease);
   return {};
 }
 

@@ -113,8 +113,8 @@ Status change_password(Program& program, const std::string& of) {
   return show_user(program, client::set_password(program.daemon(), request));
 }
 
-Status say_done(const Program& program, const std::string& name, const Status& done,
-                const char* what) {
+Status print_outcome(const Program& program, const std::string& name, const Status& done,
+                     const char* what) {
   HP_RETURN_IF_ERROR(done);
   if (program.json()) print({{what, name}});
   if (!program.json()) std::cout << printable(name) << " " << what << std::endl;
@@ -170,14 +170,14 @@ Status add_key(Program& program, const KeyOptions& options) {
   if (!options.role.empty()) request.set_role(role_of(options.role));
   const std::chrono::seconds ttl = std::chrono::hours(24) * options.days;
   if (ttl.count() > 0) request.mutable_ttl()->set_seconds(ttl.count());
-  HP_ASSIGN_OR_RETURN(const auto made, client::create_api_key(program.daemon(), request));
+  HP_ASSIGN_OR_RETURN(const auto api_key, client::create_api_key(program.daemon(), request));
   if (program.json()) {
-    print(made);
+    print(api_key);
   } else {
     std::cerr
         << "This key is shown once. Set HYDROPRINT_API_KEY to it, or pass it to 'hydroprint login "
            "--api-key-stdin':\n";
-    std::cout << made.key() << std::endl;
+    std::cout << api_key.key() << std::endl;
   }
   return {};
 }
@@ -261,7 +261,7 @@ void add_users(CLI::App& app, Program& program) {
                                options->name, "User name");
   program.on(*remove, [&program, options] {
     const std::string name = in_collection("users", options->name);
-    return say_done(program, name, client::delete_user(program.daemon(), name), "deleted");
+    return print_outcome(program, name, client::delete_user(program.daemon(), name), "deleted");
   });
 }
 
@@ -283,7 +283,7 @@ void add_keys(CLI::App& app, Program& program) {
   CLI::App* remove = add_named(*keys, "delete", "Delete a key", *name, "Name of the key");
   program.on(*remove, [&program, name] {
     const std::string full = in_collection("apiKeys", *name);
-    return say_done(program, full, client::delete_api_key(program.daemon(), full), "deleted");
+    return print_outcome(program, full, client::delete_api_key(program.daemon(), full), "deleted");
   });
 }
 
@@ -296,7 +296,7 @@ void add_sessions(CLI::App& app, Program& program) {
   CLI::App* revoke = add_named(*sessions, "revoke", "End a session", *name, "Name of the session");
   program.on(*revoke, [&program, name] {
     const std::string full = in_collection("sessions", *name);
-    return say_done(program, full, client::revoke_session(program.daemon(), full), "revoked");
+    return print_outcome(program, full, client::revoke_session(program.daemon(), full), "revoked");
   });
 }
 

@@ -7,8 +7,8 @@ namespace hydroprint::cli {
 namespace {
 
 // Returns for example ", 20.00 mm deep"; empty if the report lacks the number.
-std::string told(const nlohmann::json& report, const char* key, const std::string& before,
-                 const std::string& after, double scale = 1) {
+std::string figure_text(const nlohmann::json& report, const char* key, const std::string& before,
+                        const std::string& after, double scale = 1) {
   const auto number = json_number(report, key);
   return number ? before + format_fixed(scale * *number) + after : "";
 }
@@ -33,11 +33,11 @@ Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon, const s
 std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files) {
   const nlohmann::json report = read_report(files);
   const nlohmann::json& descent = json_at(report, "descent");
-  return job.name() + ": dipped" + told(report, "depth_reached_mm", " ", " mm deep") +
-         told(descent, "speed_mm_per_s", " at ", " mm/s") +
-         told(descent, "largest_deviation_share", ", constant within ", " %", 100) +
-         told(descent, "largest_deviation_mm", " and ", " mm") +
-         told(descent, "deviation_uncertainty_mm", " (uncertainty ", " mm)");
+  return job.name() + ": dipped" + figure_text(report, "depth_reached_mm", " ", " mm deep") +
+         figure_text(descent, "speed_mm_per_s", " at ", " mm/s") +
+         figure_text(descent, "largest_deviation_share", ", constant within ", " %", 100) +
+         figure_text(descent, "largest_deviation_mm", " and ", " mm") +
+         figure_text(descent, "deviation_uncertainty_mm", " (uncertainty ", " mm)");
 }
 
 }  // namespace hydroprint::cli

@@ -55,7 +55,7 @@ Result<double> LoopRounds::gripper_mm() const {
       options_.control + ": this virtual rig has no camera; add a [camera] to its --scene file");
 }
 
-Status LoopRounds::hang(const Pose& X_GO) const {
+Status LoopRounds::set_object_pose(const Pose& X_GO) const {
   const fs::path held = file("held.json");
   HP_RETURN_IF_ERROR(image::write_artifact(held, loop::pose_json(X_GO)));
   const fs::path mesh = file("sample") / (body_.name + ".obj");
@@ -288,7 +288,7 @@ Result<loop::Round> LoopRounds::round(int index) {
   number_ = index + 1;
   loop::Round out;
   out.truth = loop::draw(body_, options_.seed, index);
-  HP_RETURN_IF_ERROR(hang(out.truth.X_GO));
+  HP_RETURN_IF_ERROR(set_object_pose(out.truth.X_GO));
   if (index > 0) HP_RETURN_IF_ERROR(move_to_view());
   HP_ASSIGN_OR_RETURN(const v1::Calibration found, calibrate(out));
   HP_RETURN_IF_ERROR(compare(found, out));

@@ -42,7 +42,7 @@ class LoopRounds {
  private:
   [[nodiscard]] std::filesystem::path file(const std::string& name) const;
   [[nodiscard]] Result<double> gripper_mm() const;
-  [[nodiscard]] Status hang(const Pose& X_GO) const;
+  [[nodiscard]] Status set_object_pose(const Pose& X_GO) const;
   Status take_camera();
   Status move_to_view();
   Result<v1::Calibration> calibrate(loop::Round& out);

@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 using client::Time;
 
 constexpr double kJogSpeed_mm_per_s = 2;
-constexpr auto kLookAtRigEvery = 200ms;
+constexpr auto kRigPollInterval = 200ms;
 constexpr auto kRedrawEvery = 250ms;
 constexpr char kJogKeys[] = "  hold Down/j or Up/k to jog, + and - change the speed";
 constexpr char kConfirmKey[] = "  Enter when done; Ctrl-C aborts the dip";
@@ -208,7 +208,7 @@ class Guide {
   }
 
   void look_at_rig() {
-    if (Clock::now() - looked_ < kLookAtRigEvery || (jogger_ && jogger_->is_held())) return;
+    if (Clock::now() - looked_ < kRigPollInterval || (jogger_ && jogger_->is_held())) return;
     looked_ = Clock::now();
     if (auto rig = client::get_rig(daemon_)) rig_ = std::move(*rig);
   }

@@ -27,7 +27,7 @@ std::string at(const std::map<std::string, std::string>& metadata, const char* k
 
 // Returns "alice holds it for 'calibration' until 2026-03-01T14:05:09Z"; empty if no holder is
 // given.
-std::string who_has_it(const Error& error) {
+std::string holder_of(const Error& error) {
   const std::string holder = at(error.metadata, "holder");
   if (holder.empty()) return "";
   const std::string purpose = at(error.metadata, "purpose");
@@ -103,9 +103,10 @@ Result<std::unique_ptr<HeldLease>> HeldLease::take_or_acquire(Program& program,
 void HeldLease::renew_until(const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
-  std::condition_variable_any bell;
+  std::condition_variable_any condition;
   // A failed renewal is not reported here: the next command will fail and report it.
-  while (!bell.wait_for(lock, stop, kLookEvery, [] { return false; }) && !stop.stop_requested()) {
+  while (!condition.wait_for(lock, stop, kLookEvery, [] { return false; }) &&
+         !stop.stop_requested()) {
     const auto lease = client::get_lease(daemon_);
     const auto end = lease ? client::time_of(lease->expire_time()) : std::nullopt;
     if (end && *end - std::chrono::system_clock::now() < kRenewBefore)
@@ -122,7 +123,7 @@ void add_lease_flag(CLI::App& command, std::string& purpose) {
 }
 
 Error in_our_words(Error error) {
-  const std::string who = who_has_it(error);
+  const std::string who = holder_of(error);
   if (error.reason == "LEASE_HELD")
     error.message = fmt::format(
         "the rig's lease is taken{}{}; ask the holder, or take it with 'hydroprint rig lease break "

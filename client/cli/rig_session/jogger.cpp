@@ -41,16 +41,16 @@ void Jogger::press(Key key, TimePoint now) {
   const int before = direction_;
   direction_ = key == Key::kDown ? 1 : key == Key::kUp ? -1 : 0;
   pressed_ = now;
-  if (direction_ != before) told_ = {};
+  if (direction_ != before) last_sent_ = {};
   if (key == Key::kFaster) speed_mm_per_s_ = std::min(2 * speed_mm_per_s_, kMost_mm_per_s);
   if (key == Key::kSlower) speed_mm_per_s_ = std::max(speed_mm_per_s_ / 2, kLeast_mm_per_s);
 }
 
 Result<std::optional<v1::Rig>> Jogger::tick(TimePoint now) {
   if (now - pressed_ > kHeldFor) direction_ = 0;
-  if (direction_ == 0) return let_go();
-  if (now - told_ < kPeriod) return std::nullopt;
-  told_ = now;
+  if (direction_ == 0) return release();
+  if (now - last_sent_ < kPeriod) return std::nullopt;
+  last_sent_ = now;
   auto rig = client::jog_rig(daemon_, lease_id_, direction_ * speed_mm_per_s_);
   // After a failed jog no stop is needed, and a stop might affect another user's motion.
   moved_ = moved_ || rig || may_have_moved(rig.error());
@@ -60,7 +60,7 @@ Result<std::optional<v1::Rig>> Jogger::tick(TimePoint now) {
   return tl::unexpected(std::move(rig).error());
 }
 
-Result<std::optional<v1::Rig>> Jogger::let_go() {
+Result<std::optional<v1::Rig>> Jogger::release() {
   if (!std::exchange(moved_, false)) return std::nullopt;
   HP_ASSIGN_OR_RETURN(auto rig, client::stop_rig(daemon_));
   return rig;

@@ -44,13 +44,13 @@ class Jogger {
   [[nodiscard]] bool is_held() const { return direction_ != 0 || moved_; }
 
  private:
-  [[nodiscard]] Result<std::optional<v1::Rig>> let_go();
+  [[nodiscard]] Result<std::optional<v1::Rig>> release();
 
   client::Connection& daemon_;
   std::string lease_id_;
   double speed_mm_per_s_;
   int direction_ = 0;  // 1 down, -1 up, 0 at standstill
-  TimePoint pressed_, told_;
+  TimePoint pressed_, last_sent_;
   bool moved_ = false;   // a jog was sent, and no stop since then
   std::string refusal_;  // why the last jog was refused
 };

@@ -39,11 +39,11 @@ Exchange::Exchange(std::shared_ptr<Socket> socket, const Limits& limits, std::st
       buffered_(buffered),
       parser_(limits.header_bytes) {}
 
-Task<Socket::Got> Exchange::read_more(milliseconds timeout) {
+Task<Socket::ReadResult> Exchange::read_more(milliseconds timeout) {
   const std::size_t before = buffered_.size();
   const std::size_t most = parser_.has_head() ? kPiece_bytes : kHeadPiece_bytes;
   buffered_.resize(before + most);
-  const Socket::Got got = co_await socket_->read(buffered_.data() + before, most, timeout);
+  const Socket::ReadResult got = co_await socket_->read(buffered_.data() + before, most, timeout);
   buffered_.resize(before + got.bytes);
   co_return got;
 }
@@ -56,12 +56,12 @@ RequestParser::Outcome Exchange::parse() {
   return outcome;
 }
 
-Task<Exchange::Begun> Exchange::begin_request(bool is_first) {
+Task<Exchange::BeginResult> Exchange::begin_request(bool is_first) {
   if (buffered_.empty()) {
     buffered_.shrink_to_fit();  // an idle connection holds no memory
-    const bool came =
+    const bool in_time =
         co_await socket_->readable(is_first ? limits_.header_time : limits_.idle_time);
-    if (!came) co_return Begun::kGone;
+    if (!in_time) co_return BeginResult::kGone;
   }
   const auto end = SteadyClock::now() + limits_.header_time;
   for (;;) {
@@ -69,18 +69,19 @@ Task<Exchange::Begun> Exchange::begin_request(bool is_first) {
     buffered_.erase(0, std::min(buffered_.find_first_not_of("\r\n"), buffered_.size()));
     if (!buffered_.empty()) {
       const auto outcome = parse();
-      if (outcome == RequestParser::Outcome::kMalformed) co_return Begun::kMalformed;
-      if (outcome == RequestParser::Outcome::kHeaderTooLarge) co_return Begun::kHeaderTooLarge;
+      if (outcome == RequestParser::Outcome::kMalformed) co_return BeginResult::kMalformed;
+      if (outcome == RequestParser::Outcome::kHeaderTooLarge)
+        co_return BeginResult::kHeaderTooLarge;
       if (parser_.has_head()) break;
-      if (buffered_.size() > kMostUnparsed_bytes) co_return Begun::kHeaderTooLarge;
+      if (buffered_.size() > kMostUnparsed_bytes) co_return BeginResult::kHeaderTooLarge;
     }
-    const Socket::Got got = co_await read_more(left_until(end));
+    const Socket::ReadResult got = co_await read_more(left_until(end));
     if (got.bytes > 0) continue;
-    co_return got.timed_out && !buffered_.empty() ? Begun::kTimedOut : Begun::kGone;
+    co_return got.timed_out && !buffered_.empty() ? BeginResult::kTimedOut : BeginResult::kGone;
   }
   keeps_alive_ = head().keeps_alive && head().has_known_end();
   was_invited_ = !head().expects_continue;
-  co_return Begun::kYes;
+  co_return BeginResult::kYes;
 }
 
 Task<bool> Exchange::invite_body() {
@@ -97,14 +98,14 @@ Task<Result<std::string>> Exchange::read_body_piece() {
     if (!piece.empty() || parser_.is_done()) co_return piece;
     auto outcome = RequestParser::Outcome::kNeedsMore;
     if (!buffered_.empty()) outcome = parse();
-    if (outcome == RequestParser::Outcome::kGotOn) continue;
+    if (outcome == RequestParser::Outcome::kProgress) continue;
     if (outcome != RequestParser::Outcome::kNeedsMore || buffered_.size() > kMostUnparsed_bytes) {
       break_off();
       co_return fail(Code::kInvalidArgument,
                      "the request body is not valid HTTP framing; send it again",
                      "REQUEST_MALFORMED");
     }
-    const Socket::Got got = co_await read_more(limits_.body_time);
+    const Socket::ReadResult got = co_await read_more(limits_.body_time);
     if (got.bytes > 0) continue;
     break_off();
     if (!got.timed_out) co_return tl::unexpected(client_left());

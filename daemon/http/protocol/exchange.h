@@ -20,8 +20,8 @@ class Exchange {
   Exchange(std::shared_ptr<Socket> socket, const Limits& limits, std::string& buffered);
 
   /// Result of waiting for a request.
-  enum class Begun { kYes, kGone, kTimedOut, kMalformed, kHeaderTooLarge };
-  [[nodiscard]] Task<Begun> begin_request(bool is_first);
+  enum class BeginResult { kYes, kGone, kTimedOut, kMalformed, kHeaderTooLarge };
+  [[nodiscard]] Task<BeginResult> begin_request(bool is_first);
   [[nodiscard]] const Head& head() const { return parser_.head(); }
 
   /// Reads a piece of the body, at most 64 KiB; empty at the end. Errors: kInvalidArgument,
@@ -54,7 +54,7 @@ class Exchange {
 
  private:
   [[nodiscard]] Task<bool> send_pieces(std::string_view bytes);
-  [[nodiscard]] Task<Socket::Got> read_more(milliseconds timeout);
+  [[nodiscard]] Task<Socket::ReadResult> read_more(milliseconds timeout);
   [[nodiscard]] RequestParser::Outcome parse();
   [[nodiscard]] Task<bool> invite_body();
   [[nodiscard]] bool may_drop_rest() const;

@@ -13,12 +13,12 @@ class PlainTransport final : public Transport {
  public:
   explicit PlainTransport(int socket) : socket_(socket) {}
 
-  Step open() override { return {Step::Came::kDone}; }
+  Step open() override { return {Step::Outcome::kDone}; }
   Step read(char* into, std::size_t size) override { return receive(into, size, 0); }
   Step write(std::string_view bytes) override {
     const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-    if (sent >= 0) return {Step::Came::kDone, static_cast<std::size_t>(sent)};
-    return {may_come_later() ? Step::Came::kNeedsOutput : Step::Came::kOver};
+    if (sent >= 0) return {Step::Outcome::kDone, static_cast<std::size_t>(sent)};
+    return {may_come_later() ? Step::Outcome::kNeedsOutput : Step::Outcome::kOver};
   }
   Step look() override {
     char byte = 0;
@@ -31,8 +31,8 @@ class PlainTransport final : public Transport {
  private:
   Step receive(char* into, std::size_t size, int flags) const {
     const ssize_t got = ::recv(socket_, into, size, flags | MSG_DONTWAIT);
-    if (got > 0) return {Step::Came::kDone, static_cast<std::size_t>(got)};
-    return {got < 0 && may_come_later() ? Step::Came::kNeedsInput : Step::Came::kOver};
+    if (got > 0) return {Step::Outcome::kDone, static_cast<std::size_t>(got)};
+    return {got < 0 && may_come_later() ? Step::Outcome::kNeedsInput : Step::Outcome::kOver};
   }
 
   int socket_;

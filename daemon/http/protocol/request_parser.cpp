@@ -92,7 +92,7 @@ RequestParser::Outcome RequestParser::put(std::string_view bytes, std::size_t& u
   // limit.
   if (!had_head) impl_->header_bytes += used;
   if (impl_->header_bytes > impl_->header_limit_bytes) return Outcome::kHeaderTooLarge;
-  if (!error) return Outcome::kGotOn;
+  if (!error) return Outcome::kProgress;
   if (error == beast::http::error::need_more) return Outcome::kNeedsMore;
   return error == beast::http::error::header_limit ? Outcome::kHeaderTooLarge : Outcome::kMalformed;
 }

@@ -47,7 +47,7 @@ class RequestParser {
   RequestParser(const RequestParser&) = delete;
   RequestParser& operator=(const RequestParser&) = delete;
 
-  enum class Outcome { kGotOn, kNeedsMore, kMalformed, kHeaderTooLarge };
+  enum class Outcome { kProgress, kNeedsMore, kMalformed, kHeaderTooLarge };
   /// Parses the next bytes and sets `used` to the number consumed. Each call completes the head or
   /// consumes a part of the body.
   [[nodiscard]] Outcome put(std::string_view bytes, std::size_t& used);

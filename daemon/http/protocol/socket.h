@@ -19,13 +19,13 @@ using std::chrono::milliseconds;
 class Socket {
  public:
   /// Result of a read. `bytes` is 0 at the peer's end, after an error or on timeout.
-  struct Got {
+  struct ReadResult {
     std::size_t bytes = 0;
     bool timed_out = false;
   };
 
   /// Result of opening a connection.
-  enum class Opened {
+  enum class OpenResult {
     kYes,
     kNo,         ///< timeout or handshake failure
     kPlainHttp,  ///< the client does not use TLS; the server can reply in plain HTTP
@@ -34,11 +34,11 @@ class Socket {
   virtual ~Socket() = default;
 
   /// Performs the TLS handshake, if TLS is used. Must be called first.
-  virtual void open(milliseconds timeout, std::function<void(Opened)> done) = 0;
+  virtual void open(milliseconds timeout, std::function<void(OpenResult)> done) = 0;
   /// Waits until data or the end of the stream arrives; false on timeout.
   virtual void when_readable(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void read_some(char* into, std::size_t size, milliseconds timeout,
-                         std::function<void(Got)> done) = 0;
+                         std::function<void(ReadResult)> done) = 0;
   /// Writes all bytes; false after an error, or if no byte was sent within the timeout.
   virtual void write(std::string_view bytes, milliseconds timeout,
                      std::function<void(bool)> done) = 0;
@@ -66,14 +66,14 @@ class Socket {
   [[nodiscard]] virtual bool is_secure() const = 0;
 
   // The same functions as awaitables.
-  Awaiting<Opened> opened(milliseconds timeout) {
-    return Awaiting<Opened>([this, timeout](auto done) { open(timeout, std::move(done)); });
+  Awaiting<OpenResult> opened(milliseconds timeout) {
+    return Awaiting<OpenResult>([this, timeout](auto done) { open(timeout, std::move(done)); });
   }
   Awaiting<bool> readable(milliseconds timeout) {
     return Awaiting<bool>([this, timeout](auto done) { when_readable(timeout, std::move(done)); });
   }
-  Awaiting<Got> read(char* into, std::size_t size, milliseconds timeout) {
-    return Awaiting<Got>([this, into, size, timeout](auto done) {
+  Awaiting<ReadResult> read(char* into, std::size_t size, milliseconds timeout) {
+    return Awaiting<ReadResult>([this, into, size, timeout](auto done) {
       read_some(into, size, timeout, std::move(done));
     });
   }

@@ -24,10 +24,10 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 using asio::error::operation_aborted;
 using boost::system::error_code;
-using Came = Step::Came;
+using Outcome = Step::Outcome;
 
 constexpr int kThreads = 2;
-constexpr milliseconds kNapWithoutDescriptors{100};
+constexpr milliseconds kDescriptorRetryDelay{100};
 // Limits the data that the kernel buffers for a slow client.
 constexpr int kSendBuffer_bytes = 256 << 10;
 
@@ -61,14 +61,14 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     if (!transport_) throw std::bad_alloc();
   }
 
-  void open(milliseconds timeout, std::function<void(Opened)> done) override {
+  void open(milliseconds timeout, std::function<void(OpenResult)> done) override {
     begin(
         timeout, [this] { return transport_->open(); },
         [this, done = std::move(done)](Step step, bool) {
-          const bool is_plain = step.came == Came::kPlainHttp;
+          const bool is_plain = step.outcome == Outcome::kPlainHttp;
           if (is_plain) transport_ = plain_transport(socket_.native_handle());
-          const bool is_open = step.came == Came::kDone;
-          done(is_open ? Opened::kYes : is_plain ? Opened::kPlainHttp : Opened::kNo);
+          const bool is_open = step.outcome == Outcome::kDone;
+          done(is_open ? OpenResult::kYes : is_plain ? OpenResult::kPlainHttp : OpenResult::kNo);
         });
   }
 
@@ -76,17 +76,17 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     begin(
         timeout,
         [this, waits = !transport_->has_some()]() mutable {
-          return Step{std::exchange(waits, false) ? Came::kNeedsInput : Came::kDone};
+          return Step{std::exchange(waits, false) ? Outcome::kNeedsInput : Outcome::kDone};
         },
         [done = std::move(done)](Step, bool late) { done(!late); });
   }
 
   void read_some(char* into, std::size_t size, milliseconds timeout,
-                 std::function<void(Got)> done) override {
+                 std::function<void(ReadResult)> done) override {
     begin(
         timeout, [this, into, size] { return transport_->read(into, size); },
         [done = std::move(done)](Step step, bool late) {
-          done({step.came == Came::kDone ? step.bytes : 0, late});
+          done({step.outcome == Outcome::kDone ? step.bytes : 0, late});
         });
   }
 
@@ -95,14 +95,14 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     begin(
         timeout,
         [this, left = bytes]() mutable {
-          Step step{Came::kDone};
-          while (!left.empty() && step.came == Came::kDone) {
+          Step step{Outcome::kDone};
+          while (!left.empty() && step.outcome == Outcome::kDone) {
             step = transport_->write(left);
             left.remove_prefix(step.bytes);
           }
           return step;
         },
-        [done = std::move(done)](Step step, bool) { done(step.came == Came::kDone); });
+        [done = std::move(done)](Step step, bool) { done(step.outcome == Outcome::kDone); });
   }
 
   void wait(milliseconds timeout, std::function<void(bool)> done) override {
@@ -178,8 +178,8 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
 
   void proceed(const std::shared_ptr<Operation>& operation, bool is_first) {
     const Step step = closed_ ? Step{} : operation->attempt();
-    if (step.came == Came::kNeedsInput || step.came == Came::kNeedsOutput) {
-      socket_.async_wait(what_to_wait_for(step),
+    if (step.outcome == Outcome::kNeedsInput || step.outcome == Outcome::kNeedsOutput) {
+      socket_.async_wait(wait_type_for(step),
                          [self = shared_from_this(), operation](error_code error) {
                            error ? self->end(*operation, {}) : self->proceed(operation, false);
                          });
@@ -196,16 +196,17 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     operation.done(step, late_);
   }
 
-  static StrandSocket::wait_type what_to_wait_for(Step step) {
-    return step.came == Came::kNeedsOutput ? StrandSocket::wait_write : StrandSocket::wait_read;
+  static StrandSocket::wait_type wait_type_for(Step step) {
+    return step.outcome == Outcome::kNeedsOutput ? StrandSocket::wait_write
+                                                 : StrandSocket::wait_read;
   }
 
   void watch_for(StrandSocket::wait_type what, unsigned mine) {
     socket_.async_wait(what, [self = shared_from_this(), mine](error_code error) {
       if (error == operation_aborted || mine != self->watch_) return;
       const Step step = self->closed_ ? Step{} : self->transport_->look();
-      if (step.came == Came::kOver) return self->tell_gone();
-      if (step.came != Came::kDone) self->watch_for(what_to_wait_for(step), mine);
+      if (step.outcome == Outcome::kOver) return self->tell_gone();
+      if (step.outcome != Outcome::kDone) self->watch_for(wait_type_for(step), mine);
     });
   }
 
@@ -233,7 +234,7 @@ struct TcpListener::Impl {
       waiting_context.get_executor()};
   Strand strand{context.get_executor()};  // strand of the listener
   asio::basic_socket_acceptor<tcp, Strand> acceptor{strand};
-  StrandTimer nap{strand};
+  StrandTimer retry_timer{strand};
   Accepted accepted;
   tls::CurrentIdentity identity;
   std::vector<std::thread> threads;
@@ -275,8 +276,8 @@ struct TcpListener::Impl {
                               return accept();
                             }
                             // Waits, because no descriptor is free until another connection ends.
-                            nap.expires_after(kNapWithoutDescriptors);
-                            nap.async_wait([this](error_code ended) {
+                            retry_timer.expires_after(kDescriptorRetryDelay);
+                            retry_timer.async_wait([this](error_code ended) {
                               if (!ended && acceptor.is_open()) accept();
                             });
                           });
@@ -289,10 +290,10 @@ TcpListener::~TcpListener() { stop(); }
 
 Result<std::unique_ptr<TcpListener>> TcpListener::listen(const std::string& host, int port,
                                                          tls::CurrentIdentity identity) {
-  std::unique_ptr<TcpListener> made(new TcpListener);
-  made->impl_->identity = std::move(identity);
-  HP_RETURN_IF_ERROR(made->impl_->open(host, port));
-  return made;
+  std::unique_ptr<TcpListener> listener(new TcpListener);
+  listener->impl_->identity = std::move(identity);
+  HP_RETURN_IF_ERROR(listener->impl_->open(host, port));
+  return listener;
 }
 
 int TcpListener::port() const {
@@ -313,7 +314,7 @@ void TcpListener::stop_accepting() {
   asio::post(impl_->strand, [this] {
     error_code ignored;
     impl_->acceptor.close(ignored);
-    impl_->nap.cancel();
+    impl_->retry_timer.cancel();
   });
 }
 
@@ -324,7 +325,7 @@ void TcpListener::stop() {
   impl_->threads.clear();
 }
 
-void TcpListener::aside(std::function<void()> work) {
+void TcpListener::run_blocking(std::function<void()> work) {
   asio::post(impl_->waiting_context, std::move(work));
 }
 

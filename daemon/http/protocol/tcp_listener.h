@@ -35,7 +35,7 @@ class TcpListener {
   /// Ends the threads; pending callbacks are not called any more.
   void stop();
   /// Runs `work` on the blocking thread, one task at a time.
-  void aside(std::function<void()> work);
+  void run_blocking(std::function<void()> work);
 
  private:
   TcpListener();

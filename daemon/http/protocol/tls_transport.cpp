@@ -12,7 +12,7 @@
 namespace hydroprint::http {
 namespace {
 
-using Came = Step::Came;
+using Outcome = Step::Outcome;
 
 // Returns the functions below implement a BIO that uses send() without SIGPIPE, because the signal
 // from OpenSSL's own BIO would end the program when a client disconnects.
@@ -39,12 +39,12 @@ long control(BIO*, int command, long, void*) { return command == BIO_CTRL_FLUSH 
 
 const BIO_METHOD* socket_method() {
   static BIO_METHOD* const method = [] {
-    BIO_METHOD* made = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "socket");
-    if (made == nullptr) return made;
-    BIO_meth_set_write(made, write_to_socket);
-    BIO_meth_set_read(made, read_from_socket);
-    BIO_meth_set_ctrl(made, control);
-    return made;
+    BIO_METHOD* bio_method = BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "socket");
+    if (bio_method == nullptr) return bio_method;
+    BIO_meth_set_write(bio_method, write_to_socket);
+    BIO_meth_set_read(bio_method, read_from_socket);
+    BIO_meth_set_ctrl(bio_method, control);
+    return bio_method;
   }();
   return method;
 }
@@ -75,7 +75,7 @@ class TlsTransport final : public Transport {
     const int result = SSL_do_handshake(ssl_.get());
     if (result == 1) is_open_ = true;
     if (result != 1 && ERR_GET_REASON(ERR_peek_error()) == SSL_R_HTTP_REQUEST) {
-      return {Came::kPlainHttp};
+      return {Outcome::kPlainHttp};
     }
     return outcome(result);
   }
@@ -102,27 +102,27 @@ class TlsTransport final : public Transport {
 
  private:
   Step outcome(int result) {
-    if (result > 0) return {Came::kDone, static_cast<std::size_t>(result)};
+    if (result > 0) return {Outcome::kDone, static_cast<std::size_t>(result)};
     switch (SSL_get_error(ssl_.get(), result)) {
       case SSL_ERROR_WANT_READ:
-        return {Came::kNeedsInput};
+        return {Outcome::kNeedsInput};
       case SSL_ERROR_WANT_WRITE:
-        return {Came::kNeedsOutput};
+        return {Outcome::kNeedsOutput};
       case SSL_ERROR_ZERO_RETURN:
-        return {Came::kOver};
+        return {Outcome::kOver};
       default:
         is_broken_ = true;  // OpenSSL forbids further calls after this
-        return {Came::kOver};
+        return {Outcome::kOver};
     }
   }
 
-  struct Freeing {
+  struct Deleter {
     void operator()(SSL* ssl) const { SSL_free(ssl); }
   };
 
   std::shared_ptr<const tls::Identity> identity_;
   int socket_;
-  std::unique_ptr<SSL, Freeing> ssl_;
+  std::unique_ptr<SSL, Deleter> ssl_;
   bool is_open_ = false, is_broken_ = false;
 };
 

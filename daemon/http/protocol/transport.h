@@ -7,14 +7,14 @@ namespace hydroprint::http {
 
 /// Result of a non-blocking operation.
 struct Step {
-  enum class Came {
+  enum class Outcome {
     kDone,
     kNeedsInput,   ///< try again once the socket is readable
     kNeedsOutput,  ///< try again once the socket is writable
     kOver,         ///< the peer disconnected or violated the protocol
     kPlainHttp,    ///< from open(): the client does not use TLS
   };
-  Came came = Came::kOver;
+  Outcome outcome = Outcome::kOver;
   std::size_t bytes = 0;
 };
 

@@ -29,7 +29,7 @@ Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
                                 {{"calibration", spec.camera_calibration()}}});
   }
   HP_RETURN_IF_ERROR(found);
-  if (found->made.kind != CalibrationKind::kCamera) {
+  if (found->definition.kind != CalibrationKind::kCamera) {
     return invalid_field("calibrate.camera_calibration",
                          "names the calibration of an object; name one of a camera");
   }
@@ -44,16 +44,16 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
   [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
       const Job& job, const std::filesystem::path& artifacts) const override {
     v1::Job body;
-    body.ParseFromString(job.made.body);
+    body.ParseFromString(job.definition.body);
     const v1::CalibrateSpec& spec = body.calibrate();
     v1::Calibration found;
     HP_ASSIGN_OR_RETURN(const std::string text,
                         read_text_file(artifacts / "calibration.json", kLargestCalibration));
     HP_RETURN_IF_ERROR(read_calibration(text, found));
     take_object(spec, found);
-    found.set_display_name(job.made.display_name);
+    found.set_display_name(job.definition.display_name);
     NewCalibration out;
-    out.owner = job.made.owner;
+    out.owner = job.definition.owner;
     out.job = job.id;
     if (!spec.capture_job().empty()) {
       HP_ASSIGN_OR_RETURN(out.capture, parse_job_name(spec.capture_job()));
@@ -106,10 +106,11 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     HP_ASSIGN_OR_RETURN(const auto lens, lens_of(shown, sources.calibrations));
     if (!lens) return {};
     shown.set_camera_calibration(calibration_name(lens->id));
-    HP_ASSIGN_OR_RETURN(const Artifact artifact, sources.jobs.artifact(lens->made.job, kLens));
+    HP_ASSIGN_OR_RETURN(const Artifact artifact,
+                        sources.jobs.artifact(lens->definition.job, kLens));
     HP_ASSIGN_OR_RETURN(
         *resolved.mutable_camera(),
-        adopt_artifact(lens->made.job, artifact, std::string("rig/") + kLens, sources));
+        adopt_artifact(lens->definition.job, artifact, std::string("rig/") + kLens, sources));
     return {};
   }
 

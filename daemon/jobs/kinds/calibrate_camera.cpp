@@ -34,10 +34,10 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
     HP_ASSIGN_OR_RETURN(const std::string text,
                         read_text_file(artifacts / "camera.json", kLargestCamera));
     HP_RETURN_IF_ERROR(read_camera(text, found));
-    found.set_display_name(job.made.display_name);
+    found.set_display_name(job.definition.display_name);
     NewCalibration out;
     out.kind = CalibrationKind::kCamera;
-    out.owner = job.made.owner;
+    out.owner = job.definition.owner;
     out.job = job.id;
     out.body = found.SerializeAsString();
     return std::optional(std::move(out));

@@ -80,12 +80,12 @@ struct Database::Impl {
   Result<sqlite3_stmt*> prepared(const std::string& sql) {
     Statement& statement = statements[sql];
     if (!statement) {
-      sqlite3_stmt* made = nullptr;
-      if (sqlite3_prepare_v3(db, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &made, nullptr) !=
-          SQLITE_OK) {
+      sqlite3_stmt* raw_statement = nullptr;
+      if (sqlite3_prepare_v3(db, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &raw_statement,
+                             nullptr) != SQLITE_OK) {
         return database_failure(db);
       }
-      statement.reset(made);
+      statement.reset(raw_statement);
     }
     return statement.get();
   }

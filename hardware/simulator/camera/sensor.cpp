@@ -67,7 +67,7 @@ double in_steps(double depth_mm) {
   return kPerStep / std::round(kPerStep / depth_mm);
 }
 
-std::uint16_t told(double depth_mm) {
+std::uint16_t sensor_value(double depth_mm) {
   const double whole = std::round(depth_mm);
   return whole < kLeast_mm || whole > kMost_mm ? 0 : static_cast<std::uint16_t>(whole);
 }
@@ -108,7 +108,7 @@ Frame sense(const Depths& depths, double depth_scale, const Errors& errors, std:
         const std::size_t patch = static_cast<std::size_t>(y / kPatch_px) * kAcross + x / kPatch_px;
         depth_mm += noise_sigma_mm(depths[i]) * (share * constant[patch] + rest * normal(word));
       }
-      out[i] = told(errors.steps ? in_steps(depth_mm) : depth_mm);
+      out[i] = sensor_value(errors.steps ? in_steps(depth_mm) : depth_mm);
     }
   }
   return out;

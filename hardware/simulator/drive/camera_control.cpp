@@ -60,7 +60,8 @@ Status CameraControl::push(const std::string& marker, const Eigen::Vector2d& by_
   return {};
 }
 
-Status CameraControl::hang(const std::filesystem::path& pose, const std::filesystem::path& mesh) {
+Status CameraControl::set_object(const std::filesystem::path& pose,
+                                 const std::filesystem::path& mesh) {
   HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(pose));
   const std::scoped_lock lock(mutex_);
   Scene next = scene_;

@@ -31,10 +31,11 @@ class CameraControl {
   /// Changes the object's pose to that of the pose file, for cameras that are opened later. If a
   /// mesh (in mm) is given, also replaces the object. Errors: those of read_pose_file and
   /// scenery_of.
-  [[nodiscard]] Status hang(const std::filesystem::path& pose, const std::filesystem::path& mesh);
+  [[nodiscard]] Status set_object(const std::filesystem::path& pose,
+                                  const std::filesystem::path& mesh);
   /// Shows only this mesh (in mm) to cameras that are opened later, for example a calibration
   /// board. Its pose is in the camera's frame (x to the right of its image, y down, z forward). If
-  /// both paths are empty, shows the rig again. Errors as for `hang`.
+  /// both paths are empty, shows the rig again. Errors as for `set_object`.
   [[nodiscard]] Status show(const std::filesystem::path& pose, const std::filesystem::path& mesh);
   /// Clears all faults.
   void clear();

@@ -206,7 +206,7 @@ bool at_negative_end(const Machine& machine, const Model& model, const Inputs& i
   return inputs.negative_end || model.actual.x_mm <= -machine.end_switches_beyond_mm;
 }
 
-Kinematics told(const Model& model, const Inputs& inputs) {
+Kinematics feedback(const Model& model, const Inputs& inputs) {
   if (inputs.frozen) return {model.frozen_mm - model.zero_mm, 0};
   return {model.actual.x_mm - model.zero_mm, model.actual.v_mm_per_s};
 }
@@ -220,8 +220,8 @@ Model step(const Machine& machine, Model model, const Inputs& inputs, double dt_
   return model;
 }
 
-std::optional<Model> obey(const Machine& machine, Model model, const Inputs& inputs,
-                          const Order& order) {
+std::optional<Model> execute(const Machine& machine, Model model, const Inputs& inputs,
+                             const Order& order) {
   switch (order.command) {
     case Command::kEnable:
       return switch_on(model, inputs);

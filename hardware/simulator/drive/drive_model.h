@@ -92,7 +92,7 @@ struct Model {
                                    const Inputs& inputs);
 
 /// Returns position and velocity as reported by the drive, relative to its zero.
-[[nodiscard]] Kinematics told(const Model& model, const Inputs& inputs);
+[[nodiscard]] Kinematics feedback(const Model& model, const Inputs& inputs);
 
 /// Advances the drive by `dt_s`. Motion is computed exactly; switches, watchdog and dead-man timer
 /// are checked every millisecond, as in a real drive.
@@ -108,7 +108,7 @@ struct Order {
 
 /// Executes an order; returns nullopt if the state forbids it (alarm, stop button, not enabled,
 /// motion into a pressed limit switch). A move replaces a move in progress.
-[[nodiscard]] std::optional<Model> obey(const Machine& machine, Model model, const Inputs& inputs,
-                                        const Order& order);
+[[nodiscard]] std::optional<Model> execute(const Machine& machine, Model model,
+                                           const Inputs& inputs, const Order& order);
 
 }  // namespace hydroprint::simulated_drive

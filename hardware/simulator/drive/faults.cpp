@@ -112,7 +112,7 @@ std::optional<Action> parse_strike(const Words& words) {
   Action out;
   out.kind = Action::Kind::kReplyFault;
   if (words.size() == 1 && words[0] == "silent") {
-    out.reply_fault = {ReplyFaultKind::kDeaf, milliseconds(0), -1};
+    out.reply_fault = {ReplyFaultKind::kDropRequest, milliseconds(0), -1};
     return out;
   }
   const auto fault = look_up(kFaults, words[0]);
@@ -164,7 +164,7 @@ std::optional<State> look_up_state(const std::string_view (&words)[N], std::stri
 std::optional<Action> parse_held(const Words& words) {
   Action out;
   const bool is_nothing = words == Words{"show", "nothing"};
-  out.kind = words[0] == "hang" ? Action::Kind::kHang : Action::Kind::kShow;
+  out.kind = words[0] == "hang" ? Action::Kind::kSetObject : Action::Kind::kShow;
   if (is_nothing) return out;
   if (words[0] != "hang" && words[0] != "show") return std::nullopt;
   if (words.size() != 3 && (words[0] != "hang" || words.size() != 2)) return std::nullopt;

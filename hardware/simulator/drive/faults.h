@@ -22,7 +22,7 @@ enum class ReplyFaultKind {
   kWrongCrc,       ///< RTU: checksum; TCP: transaction id
   kWrongLength,    ///< correctly framed, but a word short; for a write: confirms another value
   kBusy,           ///< exception 6; the request has no effect
-  kDeaf,           ///< the drive does not receive the request
+  kDropRequest,    ///< the drive does not receive the request
 };
 
 /// A fault and the number of replies that it affects.
@@ -41,12 +41,12 @@ struct Action {
     kRelease,  ///< `input`
     kUnplug,
     kReplug,
-    kReboot,  ///< silent for `pause`, then switched on
-    kCamera,  ///< becomes `camera`
-    kMarker,  ///< the marker `name` becomes `marker`
-    kPush,    ///< moves the marker `name` by `push_mm`
-    kHang,    ///< sets the object's pose from the file `name`, or replaces the object by `mesh`
-    kShow,    ///< shows `mesh` to the camera at the pose of the file `name`; empty: nothing
+    kReboot,     ///< silent for `pause`, then switched on
+    kCamera,     ///< becomes `camera`
+    kMarker,     ///< the marker `name` becomes `marker`
+    kPush,       ///< moves the marker `name` by `push_mm`
+    kSetObject,  ///< sets the object's pose from the file `name`, or replaces the object by `mesh`
+    kShow,       ///< shows `mesh` to the camera at the pose of the file `name`; empty: nothing
     kState,
     kScenery,  ///< requests of the camera driver: the scenery and its variable part
     kSight,

@@ -8,13 +8,13 @@ namespace hydroprint::simulated_drive {
 namespace {
 
 constexpr double kTolerance_mm = 1e-9;
-constexpr double kForEver = std::numeric_limits<double>::infinity();
+constexpr double kUnlimited_s = std::numeric_limits<double>::infinity();
 
 /// Constant acceleration for a time. Afterwards the velocity is exactly `end_v` (no drift) and, in
 /// the last piece, the position is exactly the target.
 struct Piece {
   double acceleration = 0;
-  double duration_s = kForEver;
+  double duration_s = kUnlimited_s;
   double end_v = 0;
   bool lands = false;
 };
@@ -26,7 +26,7 @@ Piece ramp(double from_v, double to_v, double rate) {
 
 Piece towards_velocity(double v, const Goal& goal) {
   const double wanted = goal.speed_mm_per_s;
-  if (v == wanted) return {0, kForEver, v, false};
+  if (v == wanted) return {0, kUnlimited_s, v, false};
   if (v * wanted < 0) return ramp(v, 0, goal.deceleration_mm_per_s2);
   const bool grows = std::abs(wanted) > std::abs(v);
   return ramp(v, wanted, grows ? goal.acceleration_mm_per_s2 : goal.deceleration_mm_per_s2);

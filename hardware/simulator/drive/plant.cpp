@@ -52,7 +52,7 @@ std::vector<std::uint16_t> written(Request request) {
 
 Plant::Plant(const Machine& machine, Registers registers, double start_mm)
     : machine_(machine), registers_(std::move(registers)), model_(switched_on(start_mm)) {
-  tell();
+  update_registers();
 }
 
 int Plant::unit() const { return registers_.profile().unit; }
@@ -64,8 +64,8 @@ void Plant::catch_up() {
   model_ = step(machine_, model_, inputs_, now.count() - model_.time_s);
 }
 
-void Plant::tell() {
-  const Kinematics now = told(model_, inputs_);
+void Plant::update_registers() {
+  const Kinematics now = feedback(model_, inputs_);
   drive::DriveState state;
   state.position_mm = now.x_mm;
   state.velocity_mm_per_s = now.v_mm_per_s;
@@ -79,7 +79,7 @@ void Plant::tell() {
   state.home_switch = at_home_switch(model_);
   state.stop_input = inputs_.stop_button;
   state.alarm_code = model_.alarm;
-  registers_.tell(state);
+  registers_.set_state(state);
 }
 
 ReplyFault Plant::next_fault() {
@@ -93,30 +93,30 @@ Answer Plant::answer(Request request) {
   catch_up();
   if (!powered_ || request.size() < 6 || request[0] != unit()) return {};
   const ReplyFault reply_fault = next_fault();
-  if (reply_fault.fault == ReplyFaultKind::kDeaf) return {{}, reply_fault};
+  if (reply_fault.fault == ReplyFaultKind::kDropRequest) return {{}, reply_fault};
   ++requests_;
   model_.heard_s = model_.time_s;
   if (reply_fault.fault == ReplyFaultKind::kBusy) return {exception(request, kBusy), reply_fault};
-  return {obey_request(request), reply_fault};
+  return {serve_request(request), reply_fault};
 }
 
-Bytes Plant::obey_request(Request request) {
+Bytes Plant::serve_request(Request request) {
   switch (request[1]) {
     case kReadHolding:
     case kReadInput:
-      return obey_read(request);
+      return serve_read(request);
     case kWriteOne:
     case kWriteMany:
-      return obey_write(request);
+      return serve_write(request);
     default:
       return exception(request, kNoSuchFunction);
   }
 }
 
-Bytes Plant::obey_read(Request request) {
+Bytes Plant::serve_read(Request request) {
   const std::size_t count = word_at(request, 4);
   if (count < 1 || count > drive::kMaxReadWords) return exception(request, kNoSuchValue);
-  tell();
+  update_registers();
   const auto space = request[1] == kReadHolding ? drive::Space::kHolding : drive::Space::kInput;
   const auto words = registers_.read(space, word_at(request, 2), count);
   if (!words) return exception(request, kNoSuchRegister);
@@ -128,13 +128,13 @@ Bytes Plant::obey_read(Request request) {
   return out;
 }
 
-Bytes Plant::obey_write(Request request) {
+Bytes Plant::serve_write(Request request) {
   const std::uint16_t address = word_at(request, 2);
   const auto words = written(request);
   if (words.empty()) return exception(request, kNoSuchValue);
   if (!registers_.write(address, words)) return exception(request, kNoSuchRegister);
   if (const auto order = registers_.order(address, words)) {
-    const auto after = obey(machine_, model_, inputs_, *order);
+    const auto after = execute(machine_, model_, inputs_, *order);
     if (!after) return exception(request, kNotNow);
     model_ = *after;
   }
@@ -184,7 +184,8 @@ void Plant::power_off() {
   const std::scoped_lock lock(mutex_);
   catch_up();
   powered_ = false;
-  if (const auto braking = obey(machine_, model_, inputs_, {drive::Command::kDisable, 0, 0, 0})) {
+  if (const auto braking =
+          execute(machine_, model_, inputs_, {drive::Command::kDisable, 0, 0, 0})) {
     model_ = *braking;
   }
 }
@@ -207,13 +208,13 @@ Plant::Place Plant::place() {
 std::string Plant::state_json() {
   const std::scoped_lock lock(mutex_);
   catch_up();
-  const Kinematics says = told(model_, inputs_);
+  const Kinematics axis = feedback(model_, inputs_);
   const nlohmann::ordered_json out = {{"time_s", model_.time_s},
                                       {"position_mm", model_.actual.x_mm},
                                       {"velocity_mm_per_s", model_.actual.v_mm_per_s},
                                       {"demand_mm", model_.demand.x_mm},
-                                      {"told_position_mm", says.x_mm},
-                                      {"told_velocity_mm_per_s", says.v_mm_per_s},
+                                      {"told_position_mm", axis.x_mm},
+                                      {"told_velocity_mm_per_s", axis.v_mm_per_s},
                                       {"mode", kModes.at(static_cast<std::size_t>(model_.mode))},
                                       {"powered", powered_},
                                       {"enabled", model_.enabled()},

@@ -59,11 +59,11 @@ class Plant {
 
  private:
   void catch_up();
-  void tell();
+  void update_registers();
   [[nodiscard]] ReplyFault next_fault();
-  [[nodiscard]] std::vector<std::uint8_t> obey_request(std::span<const std::uint8_t> request);
-  [[nodiscard]] std::vector<std::uint8_t> obey_read(std::span<const std::uint8_t> request);
-  [[nodiscard]] std::vector<std::uint8_t> obey_write(std::span<const std::uint8_t> request);
+  [[nodiscard]] std::vector<std::uint8_t> serve_request(std::span<const std::uint8_t> request);
+  [[nodiscard]] std::vector<std::uint8_t> serve_read(std::span<const std::uint8_t> request);
+  [[nodiscard]] std::vector<std::uint8_t> serve_write(std::span<const std::uint8_t> request);
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;

@@ -61,7 +61,7 @@ void Registers::put_bit(drive::StatusBit which, bool value) {
   word = static_cast<std::uint16_t>(set ? word | mask : word & ~mask);
 }
 
-void Registers::tell(const drive::DriveState& state) {
+void Registers::set_state(const drive::DriveState& state) {
   put(profile_.position, state.position_mm);
   put(profile_.velocity, state.velocity_mm_per_s);
   if (profile_.demand) put(*profile_.demand, state.demand_mm.value_or(state.position_mm));

@@ -23,7 +23,7 @@ class Registers {
   Registers(drive::DriveProfile profile, double watchdog_s, std::uint16_t watchdog_action);
 
   /// Writes the drive's status. Uses only the bits of `state`, not its texts.
-  void tell(const drive::DriveState& state);
+  void set_state(const drive::DriveState& state);
 
   /// Returns `count` words; nullopt if one of them does not exist (Modbus exception 2).
   [[nodiscard]] std::optional<std::vector<std::uint16_t>> read(drive::Space space,

@@ -45,7 +45,7 @@ ssize_t write_some(int descriptor, std::span<const std::uint8_t> bytes) {
 }
 
 bool never_comes(ReplyFaultKind fault, const std::vector<std::uint8_t>& reply) {
-  return reply.empty() || fault == ReplyFaultKind::kDrop || fault == ReplyFaultKind::kDeaf;
+  return reply.empty() || fault == ReplyFaultKind::kDrop || fault == ReplyFaultKind::kDropRequest;
 }
 
 std::vector<std::uint8_t> cut(std::vector<std::uint8_t> frame, ReplyFaultKind fault) {

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint32_t kLook_us = 20'000;
+constexpr std::uint32_t kPollInterval_us = 20'000;
 constexpr std::size_t kCrc = 2;
 constexpr std::size_t kName = 128;
 
@@ -80,7 +80,7 @@ Status SerialServer::open() {
   modbus_ = modbus_new_rtu(name.data(), line_.baud, line_.parity, 8, line_.stop_bits);
   modbus_set_slave(modbus_, plant_.unit());
   modbus_set_socket(modbus_, master_);
-  modbus_set_indication_timeout(modbus_, 0, kLook_us);
+  modbus_set_indication_timeout(modbus_, 0, kPollInterval_us);
   return {};
 }
 
@@ -97,14 +97,14 @@ void SerialServer::serve() {
 
 void SerialServer::reply_to(std::size_t adu_bytes) {
   const auto begin = std::max(Clock::now(), free_at_);
-  const auto heard = begin + wire_time(line_, adu_bytes) + frame_gap(line_);
-  std::this_thread::sleep_until(heard);
+  const auto request_end = begin + wire_time(line_, adu_bytes) + frame_gap(line_);
+  std::this_thread::sleep_until(request_end);
   const Answer answer = plant_.answer(std::span(adu_).first(adu_bytes - kCrc));
   const auto frame = serial_frame(answer.reply, answer.reply_fault.fault);
-  const auto said = heard + answer.reply_fault.delay + wire_time(line_, frame.size());
-  std::this_thread::sleep_until(said);
+  const auto reply_end = request_end + answer.reply_fault.delay + wire_time(line_, frame.size());
+  std::this_thread::sleep_until(reply_end);
   write_all(master_, frame);
-  free_at_ = said + frame_gap(line_);
+  free_at_ = reply_end + frame_gap(line_);
 }
 
 }  // namespace hydroprint::simulated_drive

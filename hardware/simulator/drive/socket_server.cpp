@@ -17,7 +17,7 @@ namespace hydroprint::simulated_drive {
 namespace {
 
 constexpr int kBacklog = 16;
-constexpr int kLook_ms = 20;
+constexpr int kPollInterval_ms = 20;
 
 tl::unexpected<Error> refuse(const std::string& place, int error) {
   return fail(Code::kFailedPrecondition,
@@ -82,7 +82,7 @@ SocketServer::~SocketServer() {
 void SocketServer::accept_all() {
   while (!ends_) {
     pollfd wait{socket_, POLLIN, 0};
-    ::poll(&wait, 1, kLook_ms);
+    ::poll(&wait, 1, kPollInterval_ms);
     const int descriptor = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
     if (descriptor >= 0) admit(descriptor);
     part(false);
@@ -93,27 +93,27 @@ void SocketServer::accept_all() {
 void SocketServer::admit(int descriptor) {
   const int on = 1;
   ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);  // fails on local sockets
-  Client& guest = guests_.emplace_back();
-  guest.descriptor = descriptor;
-  guest.thread = std::thread([this, &guest] {
-    serve_(guest.descriptor);
-    ::shutdown(guest.descriptor, SHUT_RDWR);
-    guest.gone = true;
+  Client& client = clients_.emplace_back();
+  client.descriptor = descriptor;
+  client.thread = std::thread([this, &client] {
+    serve_(client.descriptor);
+    ::shutdown(client.descriptor, SHUT_RDWR);
+    client.gone = true;
   });
 }
 
 void SocketServer::part(bool all) {
   if (all) {
-    for (const Client& guest : guests_) ::shutdown(guest.descriptor, SHUT_RDWR);
+    for (const Client& client : clients_) ::shutdown(client.descriptor, SHUT_RDWR);
   }
-  for (auto guest = guests_.begin(); guest != guests_.end();) {
-    if (!all && !guest->gone) {
-      ++guest;
+  for (auto client = clients_.begin(); client != clients_.end();) {
+    if (!all && !client->gone) {
+      ++client;
       continue;
     }
-    guest->thread.join();
-    ::close(guest->descriptor);
-    guest = guests_.erase(guest);
+    client->thread.join();
+    ::close(client->descriptor);
+    client = clients_.erase(client);
   }
 }
 

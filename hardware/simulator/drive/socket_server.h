@@ -49,7 +49,7 @@ class SocketServer {
   int port_ = 0;
   Serve serve_;
   std::atomic<bool> ends_ = false;
-  std::list<Client> guests_;  // connected clients; used by the accepting thread
+  std::list<Client> clients_;  // connected clients; used by the accepting thread
   std::thread thread_;
 };
 

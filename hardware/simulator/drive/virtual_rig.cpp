@@ -129,8 +129,8 @@ Result<std::string> VirtualRig::perform(const Action& action) {
     case Action::Kind::kPush:
       HP_RETURN_IF_ERROR(camera_control_.push(action.name, action.push_mm));
       break;
-    case Action::Kind::kHang:
-      HP_RETURN_IF_ERROR(camera_control_.hang(action.name, action.mesh));
+    case Action::Kind::kSetObject:
+      HP_RETURN_IF_ERROR(camera_control_.set_object(action.name, action.mesh));
       break;
     case Action::Kind::kShow:
       HP_RETURN_IF_ERROR(camera_control_.show(action.name, action.mesh));

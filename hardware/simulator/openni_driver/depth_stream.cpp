@@ -85,7 +85,7 @@ OniBool DepthStream::isPropertySupported(int id) {
 OniStatus DepthStream::start() {
   auto line = RigLine::connect(control_);
   if (!line) return ONI_STATUS_ERROR;
-  const auto sight = line->ask_patiently("sight").and_then(
+  const auto sight = line->ask_until_deadline("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
   if (sight && sight->camera == simulated_scene::CameraState::kHung) {
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // like a real driver
@@ -128,11 +128,11 @@ void DepthStream::run(RigLine line) {
 }
 
 bool DepthStream::tell_frame(RigLine& line, int index) {
-  const auto said = line.ask("sight").and_then(
+  const auto reply = line.ask("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
   // A rig that is stopped does not reply: then no frame arrives, as from a camera that hangs.
-  if (!said) return said.error().code == Code::kAborted;
-  simulated_scene::Sight sight = *said;
+  if (!reply) return reply.error().code == Code::kAborted;
+  simulated_scene::Sight sight = *reply;
   if (sight.camera == simulated_scene::CameraState::kGone) return false;
   if (counts_frames_) sight.time_s = static_cast<double>(index - 1) / simulated_camera::kRate_hz;
   if (sight.camera == simulated_scene::CameraState::kBlack) {

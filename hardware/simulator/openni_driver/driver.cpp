@@ -20,8 +20,8 @@ constexpr std::string_view kScheme = "hydroprint:";
 
 Result<simulated_scene::Scenery> ask_scenery(const std::string& control) {
   HP_ASSIGN_OR_RETURN(RigLine line, RigLine::connect(control));
-  HP_ASSIGN_OR_RETURN(const std::string text, line.ask_patiently("scenery"));
-  HP_ASSIGN_OR_RETURN(const std::string now, line.ask_patiently("sight"));
+  HP_ASSIGN_OR_RETURN(const std::string text, line.ask_until_deadline("scenery"));
+  HP_ASSIGN_OR_RETURN(const std::string now, line.ask_until_deadline("sight"));
   HP_ASSIGN_OR_RETURN(const simulated_scene::Sight sight, simulated_scene::sight_of(now));
   if (sight.camera == simulated_scene::CameraState::kGone) {
     return fail(Code::kUnavailable, "the camera is not plugged in");

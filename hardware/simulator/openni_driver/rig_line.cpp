@@ -46,8 +46,8 @@ Result<RigLine> RigLine::connect(const std::string& path) {
 
 RigLine::RigLine(RigLine&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
-      owes_(other.owes_),
-      heard_(std::move(other.heard_)) {}
+      is_reply_pending_(other.is_reply_pending_),
+      buffer_(std::move(other.buffer_)) {}
 
 RigLine::~RigLine() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -55,17 +55,17 @@ RigLine::~RigLine() {
 
 Result<std::string> RigLine::ask(const std::string& line) {
   const std::string text = line + "\n";
-  if (!owes_ && ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL) !=
-                    static_cast<ssize_t>(text.size())) {
+  if (!is_reply_pending_ && ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL) !=
+                                static_cast<ssize_t>(text.size())) {
     return gone();
   }
-  owes_ = true;
+  is_reply_pending_ = true;
   std::array<char, 65536> chunk;
   for (;;) {
-    if (const auto end = heard_.find('\n'); end != std::string::npos) {
-      std::string reply = heard_.substr(0, end);
-      heard_.erase(0, end + 1);
-      owes_ = false;
+    if (const auto end = buffer_.find('\n'); end != std::string::npos) {
+      std::string reply = buffer_.substr(0, end);
+      buffer_.erase(0, end + 1);
+      is_reply_pending_ = false;
       if (!reply.starts_with(kRefusal)) return reply;
       return fail(Code::kFailedPrecondition, reply.substr(kRefusal.size()));
     }
@@ -76,11 +76,11 @@ Result<std::string> RigLine::ask(const std::string& line) {
                   "the virtual rig does not respond. Check whether it is suspended");
     }
     if (got <= 0) return gone();
-    heard_.append(chunk.data(), static_cast<std::size_t>(got));
+    buffer_.append(chunk.data(), static_cast<std::size_t>(got));
   }
 }
 
-Result<std::string> RigLine::ask_patiently(const std::string& line) {
+Result<std::string> RigLine::ask_until_deadline(const std::string& line) {
   constexpr int kTimes = 30;
   auto reply = ask(line);
   for (int i = 1; i < kTimes && !reply && reply.error().code == Code::kAborted; ++i) {

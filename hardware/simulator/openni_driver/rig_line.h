@@ -20,14 +20,14 @@ class RigLine {
   /// within a second; the next call then only waits for that response and sends nothing.
   [[nodiscard]] Result<std::string> ask(const std::string& line);
   /// Same as ask(), with a timeout of half a minute: a scene may have millions of triangles.
-  [[nodiscard]] Result<std::string> ask_patiently(const std::string& line);
+  [[nodiscard]] Result<std::string> ask_until_deadline(const std::string& line);
 
  private:
   explicit RigLine(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;
-  bool owes_ = false;  // a response is outstanding because it did not arrive in time
-  std::string heard_;
+  bool is_reply_pending_ = false;  // a response is outstanding because it did not arrive in time
+  std::string buffer_;
 };
 
 }  // namespace hydroprint::openni_driver

@@ -7,7 +7,7 @@
 
 namespace hydroprint::worker {
 
-void tell(const Error& error, ExitStatus status, bool json, std::string_view program) {
+void print_error(const Error& error, ExitStatus status, bool json, std::string_view program) {
   const std::string message = one_line(error.message);
   std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(program.size()), program.data(),
                message.c_str());

@@ -20,13 +20,13 @@ std::uint32_t big_endian(const unsigned char* bytes, int count) {
 
 std::uint32_t crc32(std::uint32_t crc, const unsigned char* bytes, std::size_t count) {
   static const auto table = [] {
-    std::array<std::uint32_t, 256> made{};
+    std::array<std::uint32_t, 256> crc_table{};
     for (std::uint32_t i = 0; i < 256; ++i) {
       std::uint32_t value = i;
       for (int bit = 0; bit < 8; ++bit) value = value >> 1 ^ (value & 1 ? 0xEDB88320U : 0);
-      made[i] = value;
+      crc_table[i] = value;
     }
-    return made;
+    return crc_table;
   }();
   for (std::size_t i = 0; i < count; ++i) crc = table[(crc ^ bytes[i]) & 255] ^ crc >> 8;
   return crc;

@@ -25,7 +25,7 @@ constexpr int kMostIterations = 25;
 constexpr double kFirstReach_mm = 12, kLeastReach_mm = 6, kReachShrinks = 0.8;
 constexpr double kSettled = 1e-4;  ///< largest last step, relative to the prior's uncertainty
 constexpr double kMostSigmas = 2;
-constexpr double kToldShare = 1.0 / 3;
+constexpr double kDeterminedShare = 1.0 / 3;
 constexpr std::array kNames{"focal length across", "focal length down", "image centre across",
                             "image centre down",   "distortion k1",     "distortion k2",
                             "distortion p1",       "distortion p2",     "depth scale"};
@@ -35,7 +35,7 @@ tl::unexpected<Error> poor(const std::string& why) {
               "POOR_VIEWS");
 }
 
-Lens::Vector believed(const Lens& nominal) {
+Lens::Vector prior_sigma(const Lens& nominal) {
   Lens::Vector out;
   out << 0.1 * nominal.fx_px, 0.1 * nominal.fy_px, 15, 15, 0.3, 1, 0.01, 0.01, 0.05;
   return out;
@@ -73,7 +73,7 @@ class Adjuster {
         nominal_(nominal),
         patch_px_(patch_px),
         lens_(nominal),
-        believed_(believed(nominal)),
+        prior_sigma_(prior_sigma(nominal)),
         context_(context) {}
 
   Result<CameraCalibration> adjust() {
@@ -90,7 +90,7 @@ class Adjuster {
       if (at_reach && step.head<kLens>().norm() < kSettled) break;
     }
     HP_RETURN_IF_ERROR(look(reach));
-    return told();
+    return result();
   }
 
  private:
@@ -152,7 +152,7 @@ class Adjuster {
     SightingRow out;
     out << (pair.normal.transpose() * lens_.derivatives(pair.scan->u, pair.scan->v, reported_mm))
                .transpose()
-               .cwiseProduct(believed_),
+               .cwiseProduct(prior_sigma_),
         -direction(pair, views_[s.view].X_CB.translation(), 1);
     return out;
   }
@@ -163,7 +163,8 @@ class Adjuster {
   [[nodiscard]] System build() const {
     System out(views_.size());
     out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // the prior
-    out.right.head<kLens>() = (nominal_.parameters() - lens_.parameters()).cwiseQuotient(believed_);
+    out.right.head<kLens>() =
+        (nominal_.parameters() - lens_.parameters()).cwiseQuotient(prior_sigma_);
     MatrixXd eliminated = MatrixXd::Zero(out.right.size(), static_cast<Index>(sightings_.size()));
     Index patches = 0;
     for_each_patch(sightings_, [&](std::span<const Sighting> patch) {
@@ -184,14 +185,14 @@ class Adjuster {
   }
 
   void take(const VectorXd& step) {
-    lens_ = lens_.with(lens_.parameters() + step.head<kLens>().cwiseProduct(believed_));
+    lens_ = lens_.with(lens_.parameters() + step.head<kLens>().cwiseProduct(prior_sigma_));
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const Vector6 twist = step.segment<6>(place_of(k));
       views_[k].X_CB = motion(twist, views_[k].X_CB.translation()) * views_[k].X_CB;
     }
   }
 
-  [[nodiscard]] Result<CameraCalibration> told() const {
+  [[nodiscard]] Result<CameraCalibration> result() const {
     const System system = build();
     const MatrixXd all =
         spread_ * spread_ *
@@ -199,14 +200,14 @@ class Adjuster {
     const Lens::Matrix scaled = all.topLeftCorner<kLens, kLens>();
     CameraCalibration out;
     out.lens = lens_;
-    out.covariance = believed_.asDiagonal() * scaled * believed_.asDiagonal();
+    out.covariance = prior_sigma_.asDiagonal() * scaled * prior_sigma_.asDiagonal();
     out.views = views_.size();
     judge(out);
     if (out.rms_sigmas > kMostSigmas)
       return poor("the board's shape does not match them. Use the right board, and hold it still");
     for (std::size_t j = 0; j < kLens; ++j) {
       const auto i = static_cast<Index>(j);
-      if (std::sqrt(scaled(i, i)) > kToldShare)
+      if (std::sqrt(scaled(i, i)) > kDeterminedShare)
         return poor(std::string("they do not determine the ") + kNames[j] +
                     ". Record more views, nearer and with more tilt");
     }
@@ -234,7 +235,7 @@ class Adjuster {
   const Lens& nominal_;
   int patch_px_;
   Lens lens_;
-  Lens::Vector believed_;
+  Lens::Vector prior_sigma_;
   const Context& context_;
 };
 

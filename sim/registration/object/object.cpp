@@ -25,10 +25,10 @@ constexpr double kSight_mm = 8;
 constexpr double kOn_mm = 4;
 constexpr int kBlock_px = 16;
 constexpr std::size_t kFewestInBlock = 40;
-constexpr double kLeastOn = 0.85;
-constexpr double kMostThrough = 0.12;
+constexpr double kLeastOnShare = 0.85;
+constexpr double kMaxThroughShare = 0.12;
 constexpr double kMostMisfit_mm = 1;
-constexpr double kAsGood = 0.03;
+constexpr double kMismatchTolerance = 0.03;
 /// Share of the points in one piece that means a second object.
 constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
@@ -47,7 +47,8 @@ struct Candidate {
     return 1 - on_share + sight.through + misfit_mm / (10 * kMostMisfit_mm);
   }
   [[nodiscard]] bool explains() const {
-    return on_share > kLeastOn && sight.through < kMostThrough && misfit_mm < kMostMisfit_mm;
+    return on_share > kLeastOnShare && sight.through < kMaxThroughShare &&
+           misfit_mm < kMostMisfit_mm;
   }
 };
 
@@ -155,7 +156,7 @@ class Finder {
     double least = 1e9;
     for (const Candidate& c : tried) least = std::min(least, c.mismatch());
     const auto turn = [&](const Candidate& c) {
-      if (c.mismatch() > least + kAsGood) return 1e9;
+      if (c.mismatch() > least + kMismatchTolerance) return 1e9;
       return Eigen::AngleAxisd(c.fit.X_CB.linear().transpose() * nominal_.linear()).angle();
     };
     return *std::min_element(tried.begin(), tried.end(),
@@ -171,7 +172,7 @@ class Finder {
   const Context& context_;
 };
 
-std::string how_wrong(const Candidate& c) {
+std::string mismatch_text(const Candidate& c) {
   return fmt::format(
       "at best {} of the scan lies on the mesh, with a misfit of {:.1f} mm (rms), and the camera "
       "sees through {} of the mesh",
@@ -228,7 +229,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   const Finder finder(shape, points, depth, cloud.camera, nominal_CO, task.fit, context);
   HP_ASSIGN_OR_RETURN(const Candidate best, finder.best());
   const double other = finder.other_share(best, cloud);
-  if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMostThrough)
+  if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMaxThroughShare)
     return fail(Code::kFailedPrecondition,
                 "a second object is in view (" + percent(other) + " of the scan). Remove it",
                 "TWO_OBJECTS");
@@ -240,7 +241,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
       return fail(Code::kFailedPrecondition,
                   "the object is the mesh's mirror image. Export the mesh without mirroring",
                   "MIRRORED");
-    return Finder::not_this(how_wrong(best));
+    return Finder::not_this(mismatch_text(best));
   }
   ObjectPose out;
   out.fit = best.fit;

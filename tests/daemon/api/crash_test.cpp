@@ -52,19 +52,19 @@ TEST_F(Crash, RunningJobIsInterruptedAndFinishesLater) {
 }
 
 TEST_F(Crash, JobFailsAfterTheThirdLossOfTheDaemon) {
-  const std::string guilty = client->simulate("sleep 60").name();
-  client->wait(guilty, [](const v1::Job& job) { return job.phase() == "velocity"; });
+  const std::string crashing_job = client->simulate("sleep 60").name();
+  client->wait(crashing_job, [](const v1::Job& job) { return job.phase() == "velocity"; });
   for (int loss = 1; loss <= 2; ++loss) {
     kill_and_restart();
-    client->wait(guilty, [](const v1::Job& job) { return job.phase() == "velocity"; });
+    client->wait(crashing_job, [](const v1::Job& job) { return job.phase() == "velocity"; });
   }
   kill_and_restart();
-  const v1::Job lost = client->job(guilty);
+  const v1::Job lost = client->job(crashing_job);
   EXPECT_EQ(lost.state(), v1::Job::FAILED);
   EXPECT_EQ(lost.error().code(), grpc::INTERNAL);
   EXPECT_EQ(lost.error().reason(), "DAEMON_LOST");
   EXPECT_NE(lost.error().message().find("3 times"), std::string::npos) << lost.error().message();
-  EXPECT_EQ(history(guilty).back(), v1::Job::FAILED);
+  EXPECT_EQ(history(crashing_job).back(), v1::Job::FAILED);
   EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);
 }
 

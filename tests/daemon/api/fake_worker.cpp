@@ -52,7 +52,7 @@ std::string file_of(const std::string& field) {
   return spec.contains(field) ? spec[field].value("name", "") : "";
 }
 
-void tell(const std::string& line) {
+void write_line(const std::string& line) {
   const int fd = std::stoi(flags["--progress-fd"]);
   if (write(fd, line.data(), line.size()) < 0) std::cerr << "the progress pipe is closed\n";
 }
@@ -65,7 +65,7 @@ void sleep_for(double seconds) {
     std::ostringstream line;
     line << R"({"stage":"velocity","fraction":)" << done << R"(,"total_fraction":)" << done
          << R"(,"eta_s":)" << seconds * (1 - done) << "}\n";
-    tell(line.str());
+    write_line(line.str());
     usleep(1000000 / kSteps_per_s);
   }
 }
@@ -80,7 +80,7 @@ void eat() {
   }
 }
 
-void leave_child_behind() {
+void start_orphan() {
   if (fork() == 0) {
     signal(SIGTERM, SIG_IGN);
     for (int i = 0; i < 60; ++i) sleep(1);
@@ -88,7 +88,7 @@ void leave_child_behind() {
   }
 }
 
-void obey(const std::string& line) {
+void execute(const std::string& line) {
   std::istringstream words(line);
   std::string command, rest;
   words >> command;
@@ -149,11 +149,11 @@ void obey(const std::string& line) {
   } else if (command == "link") {
     std::filesystem::create_symlink("/etc/passwd", flags["--out"] + "/passwd");
   } else if (command == "orphan") {
-    leave_child_behind();
+    start_orphan();
   } else if (command == "babble") {
-    tell(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
-    tell(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"
-         "\n");
+    write_line(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
+    write_line(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"
+               "\n");
     usleep(600000);
   }
 }
@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   const bool is_preview = std::string(argv[1]) == "preview";
   if (!is_preview) std::filesystem::create_directory(flags["--out"]);
   std::ifstream mesh(file_of("mesh"));
-  for (std::string line; std::getline(mesh, line);) obey(line);
+  for (std::string line; std::getline(mesh, line);) execute(line);
   if (is_preview) {
     preview();
     return 0;

@@ -136,7 +136,7 @@ TEST_F(PeopleApi, ListsAndWatchesHideFilesToo) {
 
 TEST_F(PeopleApi, OnlyOwnerAndOperatorsChangeAJob) {
   const auto maker = as("maker"), other = as("other");
-  const auto admin = as("admin"), boss = as("operator");
+  const auto admin = as("admin"), operator_user = as("operator");
   v1::Job job;
   const std::string one = maker->simulate("sleep 60").name();
   expect_refusal(cancel(*other, one), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
@@ -145,7 +145,7 @@ TEST_F(PeopleApi, OnlyOwnerAndOperatorsChangeAJob) {
   expect_refusal(remove(*other, one), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
   expect_refusal(retry(*other, one, job), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
   expect_refusal(share(*other, one, true), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
-  EXPECT_TRUE(retry(*boss, one, job).ok());
+  EXPECT_TRUE(retry(*operator_user, one, job).ok());
   EXPECT_EQ(job.owner(), "operator");
   expect_refusal(cancel(*maker, job.name()), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
   EXPECT_TRUE(cancel(*admin, job.name()).ok());
@@ -246,8 +246,8 @@ TEST_F(PeopleApi, KeyCannotSetTheFirstPassword) {
   ASSERT_TRUE(admin->people->SetPassword(admin->context().get(), none, &user).ok());
   EXPECT_FALSE(user.has_password());
   none.set_new_password("battery staple");
-  const auto boss = as("operator");
-  expect_refusal(boss->people->SetPassword(boss->context().get(), none, &user),
+  const auto operator_user = as("operator");
+  expect_refusal(operator_user->people->SetPassword(operator_user->context().get(), none, &user),
                  StatusCode::PERMISSION_DENIED, "SIGN_IN_FAILED");
 }
 
@@ -339,11 +339,12 @@ TEST_F(PeopleApi, AuditLogNamesCallerAndMethod) {
 
 TEST_F(PeopleApi, AuditLogHasMotionsAndRefusals) {
   const auto rig = v1::RigService::NewStub(as("")->channel);
-  const auto viewer = as("viewer"), boss = as("operator"), admin = as("admin");
+  const auto viewer = as("viewer"), operator_user = as("operator"), admin = as("admin");
   v1::MoveToRequest move;
   move.set_position_mm(12.5);
   v1::Rig reply;
-  EXPECT_FALSE(rig->MoveTo(boss->context().get(), move, &reply).ok());  // no rig is configured
+  EXPECT_FALSE(
+      rig->MoveTo(operator_user->context().get(), move, &reply).ok());  // no rig is configured
   expect_refusal(rig->MoveTo(viewer->context().get(), move, &reply), StatusCode::PERMISSION_DENIED,
                  "ROLE_TOO_LOW");
   EXPECT_TRUE(rig->StopMotion(viewer->context().get(), {}, &reply).ok());

@@ -174,7 +174,7 @@ TEST_F(Migration, Version1KeepsItsDataAndAcceptsUsers) {
     JobChanges changes(**database, {}, system_clock_ms);
     JobStore jobs(changes, layout, {});
     const Job job = jobs.get(1).value();
-    EXPECT_EQ(job.made.display_name, "old");
+    EXPECT_EQ(job.definition.display_name, "old");
     EXPECT_FALSE(job.shared);
     const auto accounts = auth::Accounts::open(**database, {}, system_clock_ms).value();
     if (i == 0) {
@@ -198,8 +198,8 @@ TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
     JobRetention retention(changes, layout);
     AssetStore assets(*database, layout, system_clock_ms);
     const Job job = jobs.get(1).value();
-    EXPECT_EQ(job.made.display_name, "old");
-    EXPECT_EQ(job.made.work.flags, std::vector<std::string>{"--dpi=300"});
+    EXPECT_EQ(job.definition.display_name, "old");
+    EXPECT_EQ(job.definition.work.flags, std::vector<std::string>{"--dpi=300"});
     EXPECT_EQ(job.state, JobState::kSucceeded);
     EXPECT_TRUE(job.shared);
     EXPECT_FALSE(job.pinned);
@@ -259,7 +259,7 @@ TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
   }
   EXPECT_NE(jobs.events(5, 0, 10)->back().message.find("may have printed this or not"),
             std::string::npos);
-  const Work work = jobs.get(7)->made.work;
+  const Work work = jobs.get(7)->definition.work;
   EXPECT_EQ(work.spec, "");
   EXPECT_EQ(work.flags, std::vector<std::string>{"--dpi=300"});
   EXPECT_EQ(work.pose_json, "{}");

@@ -74,7 +74,7 @@ TEST(DipPlan, ProgressGrowsFromZeroToOneAndNeverFalls) {
     stand.step = static_cast<Step>(i);
     stand.since_s = 100;
     for (const double elapsed_s : {0.0, 1.0, 1000.0}) {
-      const Outlook now = outlook(stand, 100 + elapsed_s, plan, ways, 200);
+      const ProgressEstimate now = estimate_progress(stand, 100 + elapsed_s, plan, ways, 200);
       EXPECT_GE(now.fraction, before) << name(stand.step);
       EXPECT_LE(now.fraction, 1);
       before = now.fraction;
@@ -82,7 +82,7 @@ TEST(DipPlan, ProgressGrowsFromZeroToOneAndNeverFalls) {
   }
   EXPECT_DOUBLE_EQ(before, 1);
   // 20 mm up, 60 s, 20 s, 40 mm down, 2 s, 115 mm up, at 5 mm/s and 200 mm/s2.
-  const Outlook begin = outlook({}, 0, plan, ways, 200);
+  const ProgressEstimate begin = estimate_progress({}, 0, plan, ways, 200);
   EXPECT_EQ(begin.fraction, 0);
   EXPECT_NEAR(begin.remaining_s, 4 + 60 + 20 + 8 + 2 + 23, 0.2);
 }

@@ -21,10 +21,10 @@ std::pair<Outcome, std::string> parse(RequestParser& parser, std::string_view te
       if (outcome == Outcome::kMalformed || outcome == Outcome::kHeaderTooLarge) {
         return {outcome, body};
       }
-      goes_on = outcome == Outcome::kGotOn;
+      goes_on = outcome == Outcome::kProgress;
     }
   }
-  return {parser.is_done() ? Outcome::kGotOn : Outcome::kNeedsMore, body};
+  return {parser.is_done() ? Outcome::kProgress : Outcome::kNeedsMore, body};
 }
 
 TEST(HttpRequestParser, PiecesOfAnySizeGiveTheSameRequest) {
@@ -34,7 +34,7 @@ TEST(HttpRequestParser, PiecesOfAnySizeGiveTheSameRequest) {
   for (std::size_t piece = 1; piece <= text.size(); ++piece) {
     RequestParser parser(1 << 14);
     const auto [outcome, body] = parse(parser, text, piece);
-    EXPECT_EQ(outcome, Outcome::kGotOn) << piece;
+    EXPECT_EQ(outcome, Outcome::kProgress) << piece;
     EXPECT_EQ(body, "hello!") << piece;
     EXPECT_EQ(parser.head().method, "POST");
     EXPECT_EQ(parser.head().path(), "/v1/jobs");
@@ -103,7 +103,7 @@ TEST(HttpRequestParser, HeaderLengthIsLimited) {
   };
   for (const std::size_t piece : {1U, 7U, 4096U}) {
     RequestParser most(1024), more(1024);
-    EXPECT_EQ(parse(most, with(1024), piece).first, Outcome::kGotOn) << piece;
+    EXPECT_EQ(parse(most, with(1024), piece).first, Outcome::kProgress) << piece;
     EXPECT_EQ(parse(more, with(1025), piece).first, Outcome::kHeaderTooLarge) << piece;
   }
 }

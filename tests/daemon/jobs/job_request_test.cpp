@@ -28,27 +28,27 @@ v1::Job job_with_mesh() {
 }
 
 std::string refused_field(const v1::Job& job) {
-  const auto made = check_job(job);
-  if (made) return "accepted";
-  EXPECT_EQ(made.error().code, Code::kInvalidArgument);
-  const auto& metadata = made.error().metadata;
-  return metadata.contains("field") ? metadata.at("field") : made.error().reason;
+  const auto request = check_job(job);
+  if (request) return "accepted";
+  EXPECT_EQ(request.error().code, Code::kInvalidArgument);
+  const auto& metadata = request.error().metadata;
+  return metadata.contains("field") ? metadata.at("field") : request.error().reason;
 }
 
 /// The spec that the worker receives.
 template <class SpecOfAKind>
-SpecOfAKind given(const NewJob& made) {
+SpecOfAKind given(const NewJob& request) {
   SpecOfAKind out;
-  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(made.work.spec, &out).ok());
+  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(request.work.spec, &out).ok());
   return out;
 }
 
 /// Expects that the worker receives exactly this spec, apart from the threads, which the pool
 /// chooses.
 template <class SpecOfAKind>
-void expect_given(const NewJob& made, SpecOfAKind wanted) {
+void expect_given(const NewJob& request, SpecOfAKind wanted) {
   wanted.clear_threads();
-  EXPECT_EQ(given<SpecOfAKind>(made).ShortDebugString(), wanted.ShortDebugString());
+  EXPECT_EQ(given<SpecOfAKind>(request).ShortDebugString(), wanted.ShortDebugString());
 }
 
 TEST(Spec, EveryFieldReachesTheWorker) {
@@ -67,26 +67,26 @@ TEST(Spec, EveryFieldReachesTheWorker) {
   spec.set_dip_speed_mm_per_s(0.1);
   spec.set_threads(4);
   spec.set_artifacts(v1::ARTIFACT_SET_MAP);
-  const auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  expect_given(*made, spec);
-  EXPECT_EQ(made->threads, 4);
-  EXPECT_EQ(made->work.inputs.size(), 5U);
-  EXPECT_EQ(made->display_name, "simulate spot.obj");
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  expect_given(*request, spec);
+  EXPECT_EQ(request->threads, 4);
+  EXPECT_EQ(request->work.inputs.size(), 5U);
+  EXPECT_EQ(request->display_name, "simulate spot.obj");
 }
 
 TEST(Spec, UnsetFieldsKeepTheWorkersDefaults) {
-  const auto made = check_job(job_with_mesh());
-  ASSERT_TRUE(made);
-  expect_given(*made, job_with_mesh().simulate());
+  const auto request = check_job(job_with_mesh());
+  ASSERT_TRUE(request);
+  expect_given(*request, job_with_mesh().simulate());
 }
 
 template <class SpecOfAVerb>
 void expect_inertia_for_the_sheet_alone(v1::Job& job, SpecOfAVerb& spec, const std::string& field) {
   const auto has_inertia = [&] {
-    const auto made = check_job(job);
-    EXPECT_TRUE(made) << made.error().message;
-    return made && given<SpecOfAVerb>(*made).inertia();
+    const auto request = check_job(job);
+    EXPECT_TRUE(request) << request.error().message;
+    return request && given<SpecOfAVerb>(*request).inertia();
   };
   EXPECT_FALSE(has_inertia());
   spec.set_inertia(true);
@@ -114,10 +114,10 @@ TEST(Spec, PredictRequiresItsOwnFiles) {
   EXPECT_EQ(refused_field(job), "predict.film_image");
   set_file(*job.mutable_predict()->mutable_film_image(), "film.png");
   set_file(*job.mutable_predict()->mutable_motion(), "path.csv");
-  const auto made = check_job(job);
-  ASSERT_TRUE(made);
-  EXPECT_EQ(made->work.verb, "predict");
-  expect_given(*made, job.predict());
+  const auto request = check_job(job);
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->work.verb, "predict");
+  expect_given(*request, job.predict());
 }
 
 TEST(Spec, FitHasPointsAndFreeParameters) {
@@ -133,13 +133,13 @@ TEST(Spec, FitHasPointsAndFreeParameters) {
   spec.add_free("ink_ratio");
   spec.set_drop_outliers(true);
   spec.set_threads(2);
-  const auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->work.verb, "fit");
-  expect_given(*made, spec);
-  EXPECT_EQ(made->work.inputs.size(), 3U);
-  EXPECT_EQ(made->threads, 2);
-  EXPECT_EQ(made->display_name, "fit ball.ply");
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->work.verb, "fit");
+  expect_given(*request, spec);
+  EXPECT_EQ(request->work.inputs.size(), 3U);
+  EXPECT_EQ(request->threads, 2);
+  EXPECT_EQ(request->display_name, "fit ball.ply");
 
   for (const char* bad : {"", "a,b", "--out=x", "Drag", "ink-ratio", "density"}) {
     spec.set_free(0, bad);
@@ -153,21 +153,21 @@ TEST(Spec, FitHasPointsAndFreeParameters) {
 TEST(Spec, ValidateNeedsNoFiles) {
   v1::Job job;
   auto& spec = *job.mutable_validate();
-  auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->work.verb, "validate");
-  expect_given(*made, spec);
-  EXPECT_TRUE(made->work.inputs.empty());
-  EXPECT_EQ(made->display_name, "validate");
+  auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->work.verb, "validate");
+  expect_given(*request, spec);
+  EXPECT_TRUE(request->work.inputs.empty());
+  EXPECT_EQ(request->display_name, "validate");
 
   spec.add_only("accuracy");
   spec.add_only("bowl");
   spec.set_quick(true);
   spec.set_threads(3);
-  made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  expect_given(*made, spec);
-  EXPECT_EQ(made->threads, 3);
+  request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  expect_given(*request, spec);
+  EXPECT_EQ(request->threads, 3);
 
   for (const char* bad : {"", "a,b", "--out=x", "Accuracy", "a b", "cat-bowl"}) {
     spec.set_only(0, bad);
@@ -209,13 +209,13 @@ TEST(Spec, EveryFieldOfPrintImageReachesTheWorker) {
   spec.set_ink_limit(2.5);
   spec.add_formats("pdf");
   spec.add_formats("tiff");
-  const auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->work.verb, "print-image");
-  expect_given(*made, spec);
-  EXPECT_EQ(made->threads, 2);
-  EXPECT_EQ(made->work.inputs.size(), 3U);
-  EXPECT_EQ(made->display_name, "print-image film.png");
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->work.verb, "print-image");
+  expect_given(*request, spec);
+  EXPECT_EQ(request->threads, 2);
+  EXPECT_EQ(request->work.inputs.size(), 3U);
+  EXPECT_EQ(request->display_name, "print-image film.png");
 }
 
 TEST(Spec, PrintImageRefusesImpossiblePages) {
@@ -255,11 +255,11 @@ TEST(Spec, TemplateHasObjectFilmAndPaper) {
   spec.set_film("A3");
   spec.set_paper("A3");
   spec.set_date("today");
-  const auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->work.verb, "template");
-  expect_given(*made, spec);
-  EXPECT_EQ(made->display_name, "template mug.obj");
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_EQ(request->work.verb, "template");
+  expect_given(*request, spec);
+  EXPECT_EQ(request->display_name, "template mug.obj");
 }
 
 TEST(Spec, ResolutionMatchesTheWorkersRange) {
@@ -313,11 +313,11 @@ TEST(Spec, AllWrongFieldsAreReportedTogether) {
   job.set_priority(-1);
   job.mutable_simulate()->set_film("A9");
   job.mutable_simulate()->set_dpi(1);
-  const auto made = check_job(job);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().reason, "SPEC_INVALID");
-  EXPECT_EQ(made.error().metadata.at("field"), "priority");
-  const auto violations = rest::violations_of(made.error());
+  const auto request = check_job(job);
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().reason, "SPEC_INVALID");
+  EXPECT_EQ(request.error().metadata.at("field"), "priority");
+  const auto violations = rest::violations_of(request.error());
   ASSERT_EQ(violations.size(), 3U);
   EXPECT_EQ(violations[1].field, "simulate.film");
   EXPECT_EQ(violations[2].field, "simulate.dpi");
@@ -352,11 +352,11 @@ TEST(Spec, EveryFieldOfCalibrateReachesTheWorker) {
   v1::Job job = calibrate_job();
   job.mutable_calibrate()->set_gripper_mm(-2.5);
   set_file(*job.mutable_calibrate()->mutable_camera(), "camera.json");
-  const auto made = check_job(job);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_FALSE(made->use_cache);
-  EXPECT_EQ(made->work.inputs.size(), 5U);
-  expect_given(*made, job.calibrate());
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  EXPECT_FALSE(request->use_cache);
+  EXPECT_EQ(request->work.inputs.size(), 5U);
+  expect_given(*request, job.calibrate());
   job = calibrate_job();
   set_file(*job.mutable_calibrate()->add_frames(), "other/frames.json");
   EXPECT_EQ(refused_field(job), "calibrate.frames") << "one view";

@@ -27,7 +27,7 @@ TEST(JobKinds, AreFoundByTheVerbOfAStoredJob) {
   std::set<std::string> names;
   for (const JobKind* const kind : job_kinds()) {
     Job job;
-    job.made.work.verb = kind->name();
+    job.definition.work.verb = kind->name();
     EXPECT_EQ(kind_of(job).value(), kind);
     EXPECT_TRUE(names.insert(kind->name()).second) << kind->name();
   }

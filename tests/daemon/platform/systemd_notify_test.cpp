@@ -43,7 +43,7 @@ class ServiceManager : public ::testing::Test {
     ::close(socket_);
   }
   /// The next message; empty after two seconds without one.
-  std::string heard(int flags = 0) {
+  std::string messages(int flags = 0) {
     std::array<char, 512> bytes{};
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);
     return got < 0 ? "" : std::string(bytes.data(), static_cast<std::size_t>(got));
@@ -56,20 +56,20 @@ class ServiceManager : public ::testing::Test {
 
 TEST_F(ServiceManager, IsNotifiedOfReadyAndStopping) {
   notify_ready("serving 127.0.0.1:50051");
-  EXPECT_EQ(heard(), "READY=1\nSTATUS=serving 127.0.0.1:50051");
+  EXPECT_EQ(messages(), "READY=1\nSTATUS=serving 127.0.0.1:50051");
   notify_stopping();
-  EXPECT_TRUE(heard().starts_with("STOPPING=1"));
+  EXPECT_TRUE(messages().starts_with("STOPPING=1"));
 }
 
 TEST_F(ServiceManager, WatchdogIsFedWhileTheLoopRuns) {
   std::atomic<std::uint64_t> rounds = 0;
   const WatchdogFeeder feeder([&] { return std::optional(++rounds); });
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(messages(), "WATCHDOG=1");
 }
 
 TEST_F(ServiceManager, WatchdogIsFedWithoutADrive) {
   const WatchdogFeeder feeder([] { return std::nullopt; });
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(messages(), "WATCHDOG=1");
 }
 
 TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
@@ -78,9 +78,9 @@ TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
     ++looks;
     return std::optional<std::uint64_t>(7);
   });
-  EXPECT_EQ(heard(), "WATCHDOG=1") << "nothing is known of the loop yet";
+  EXPECT_EQ(messages(), "WATCHDOG=1") << "nothing is known of the loop yet";
   while (looks < 10) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  EXPECT_EQ(heard(MSG_DONTWAIT), "");
+  EXPECT_EQ(messages(MSG_DONTWAIT), "");
 }
 
 TEST_F(ServiceManager, NothingIsSentWithoutAWatchdog) {
@@ -93,7 +93,7 @@ TEST_F(ServiceManager, NothingIsSentWithoutAWatchdog) {
     });
   }
   EXPECT_EQ(looks, 0);
-  EXPECT_EQ(heard(MSG_DONTWAIT), "");
+  EXPECT_EQ(messages(MSG_DONTWAIT), "");
 }
 
 }  // namespace

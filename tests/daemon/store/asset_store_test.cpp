@@ -27,11 +27,11 @@ class AssetStoreTest : public StoreTest {
   }
   /// A job with these files.
   Job made_of(const Asset& asset, const std::string& owner) {
-    NewJob made;
-    made.owner = owner;
-    made.work.verb = "simulate";
-    made.work.inputs = {{"m.obj", asset.sha256}};
-    return jobs->create(made, {}).value();
+    NewJob definition;
+    definition.owner = owner;
+    definition.work.verb = "simulate";
+    definition.work.inputs = {{"m.obj", asset.sha256}};
+    return jobs->create(definition, {}).value();
   }
   [[nodiscard]] bool may(const std::string& owner, const Asset& asset) {
     const bool sees = assets->asset_for(asset.sha256, {owner}).has_value();
@@ -269,10 +269,10 @@ TEST_F(AssetStoreTest, FullDiskIsReportedBeforeAnyUpload) {
 
 TEST_F(AssetStoreTest, AssetOfAnUnfinishedJobStays) {
   const Asset asset = put("mesh");
-  NewJob made;
-  made.work.verb = "simulate";
-  made.work.inputs = {{"m.obj", asset.sha256}};
-  const Job job = jobs->create(made, {}).value();
+  NewJob definition;
+  definition.work.verb = "simulate";
+  definition.work.inputs = {{"m.obj", asset.sha256}};
+  const Job job = jobs->create(definition, {}).value();
   EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, "STATE_FORBIDS");
   ASSERT_TRUE(jobs->cancel(job.id));
   EXPECT_TRUE(assets->remove(asset.sha256, oper));

@@ -21,10 +21,10 @@ class CalibrationStoreTest : public StoreTest {
   }
   /// A running job.
   std::int64_t running(const std::string& verb = "calibrate") {
-    NewJob made;
-    made.work.verb = verb;
-    made.use_cache = false;
-    const Job job = jobs->create(made, {}).value();
+    NewJob definition;
+    definition.work.verb = verb;
+    definition.use_cache = false;
+    const Job job = jobs->create(definition, {}).value();
     return jobs->start(job.id).value().id;
   }
 
@@ -68,7 +68,7 @@ TEST_F(CalibrationStoreTest, IsStoredWithTheSuccessOfItsJobOrNotAtAll) {
   ASSERT_TRUE(
       jobs->succeed(done, {}, NewCalibration{CalibrationKind::kObject, "ann", done, 0, ""}));
   ASSERT_EQ(store->list(0, 10).value().size(), 1U);
-  EXPECT_EQ(store->list(0, 10).value().front().made.job, done);
+  EXPECT_EQ(store->list(0, 10).value().front().definition.job, done);
   const std::int64_t cancelled = running();
   ASSERT_TRUE(jobs->cancel(cancelled));
   ASSERT_TRUE(jobs->succeed(cancelled, {},
@@ -90,13 +90,13 @@ TEST_F(CalibrationStoreTest, PreventsTheDeletionOfItsJob) {
 
 TEST_F(CalibrationStoreTest, RigStateOutlivesTheCapture) {
   const RigPlace place{true, true, 20.5, 3, 4};
-  NewJob made;
-  made.work.verb = "capture";
-  made.traits.computed = false;
-  const Job capture = jobs->create(made, {}).value();
+  NewJob definition;
+  definition.work.verb = "capture";
+  definition.traits.computed = false;
+  const Job capture = jobs->create(definition, {}).value();
   EXPECT_EQ(capture.state, JobState::kRunning);
   EXPECT_EQ(capture.start_ms, now_ms);
-  EXPECT_EQ(jobs->create(made, {}).error().reason, "STATE_FORBIDS") << "one at a time";
+  EXPECT_EQ(jobs->create(definition, {}).error().reason, "STATE_FORBIDS") << "one at a time";
   ASSERT_TRUE(store->note_capture(capture.id, place));
   ASSERT_TRUE(jobs->succeed(capture.id, {}));
   const auto id =
@@ -112,10 +112,10 @@ TEST_F(CalibrationStoreTest, RigStateOutlivesTheCapture) {
 }
 
 TEST_F(CalibrationStoreTest, LostCaptureStaysInterrupted) {
-  NewJob made;
-  made.work.verb = "capture";
-  made.traits.computed = false;
-  const Job capture = jobs->create(made, {}).value();
+  NewJob definition;
+  definition.work.verb = "capture";
+  definition.traits.computed = false;
+  const Job capture = jobs->create(definition, {}).value();
   reopen();
   EXPECT_EQ(jobs->get(capture.id).value().state, JobState::kInterrupted);
 }

@@ -17,48 +17,48 @@ TEST_F(JobStoreTest, IdsAreNeverReused) {
 }
 
 TEST_F(JobStoreTest, RepeatedRequestReturnsTheSameJob) {
-  NewJob made;
-  made.owner = "ann";
-  made.work.verb = "simulate";
+  NewJob definition;
+  definition.owner = "ann";
+  definition.work.verb = "simulate";
   const RequestKey key{"CreateJob", "id-1", "content"};
-  const Job job = jobs->create(made, key).value();
+  const Job job = jobs->create(definition, key).value();
   open();
-  EXPECT_EQ(jobs->create(made, key)->id, job.id);
-  const auto other = jobs->create(made, {"CreateJob", "id-1", "other content"});
+  EXPECT_EQ(jobs->create(definition, key)->id, job.id);
+  const auto other = jobs->create(definition, {"CreateJob", "id-1", "other content"});
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().reason, "REQUEST_ID_REUSED");
-  made.owner = "bob";
-  EXPECT_NE(jobs->create(made, key)->id, job.id) << "request ids are separate for each owner";
+  definition.owner = "bob";
+  EXPECT_NE(jobs->create(definition, key)->id, job.id) << "request ids are separate for each owner";
 }
 
 TEST_F(JobStoreTest, RequestIsForgottenAfterSevenDays) {
-  NewJob made;
-  made.work.verb = "simulate";
+  NewJob definition;
+  definition.work.verb = "simulate";
   const RequestKey key{"CreateJob", "id-1", "content"};
-  const Job job = jobs->create(made, key).value();
+  const Job job = jobs->create(definition, key).value();
   now_ms += 7LL * 24 * 3600 * 1000 - 1;
-  EXPECT_EQ(jobs->create(made, key)->id, job.id);
+  EXPECT_EQ(jobs->create(definition, key)->id, job.id);
   now_ms += 2;
-  EXPECT_NE(jobs->create(made, key)->id, job.id);
+  EXPECT_NE(jobs->create(definition, key)->id, job.id);
 }
 
 TEST_F(JobStoreTest, FullQueueRefusesWithoutSideEffects) {
   for (int i = 0; i < 5; ++i) add();
-  NewJob made;
-  made.work.verb = "simulate";
-  const auto sixth = jobs->create(made, {"CreateJob", "id", "x"});
+  NewJob definition;
+  definition.work.verb = "simulate";
+  const auto sixth = jobs->create(definition, {"CreateJob", "id", "x"});
   ASSERT_FALSE(sixth);
   EXPECT_EQ(sixth.error().reason, "QUEUE_FULL");
   EXPECT_EQ(jobs->list({})->size(), 5U);
   ASSERT_TRUE(jobs->cancel(1));
-  EXPECT_TRUE(jobs->create(made, {"CreateJob", "id", "other"})) << "the id is still unused";
+  EXPECT_TRUE(jobs->create(definition, {"CreateJob", "id", "other"})) << "the id is still unused";
 }
 
 TEST_F(JobStoreTest, MissingInputIsNamed) {
-  NewJob made;
-  made.work.verb = "simulate";
-  made.work.inputs = {{"spot.obj", std::string(64, 'a')}};
-  const auto job = jobs->create(made, {});
+  NewJob definition;
+  definition.work.verb = "simulate";
+  definition.work.inputs = {{"spot.obj", std::string(64, 'a')}};
+  const auto job = jobs->create(definition, {});
   ASSERT_FALSE(job);
   EXPECT_EQ(job.error().reason, "ASSET_MISSING");
   EXPECT_EQ(job.error().metadata.at("asset"), "assets/" + std::string(64, 'a'));
@@ -107,19 +107,19 @@ TEST_F(JobStoreTest, FullDatabaseRefusesWithoutSideEffectsAndRecovers) {
   open();
   const std::int64_t first = complete(add("same").id).id;
   ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // raised to the present number of pages
-  NewJob made;
-  made.owner = "ann";
-  made.work.verb = "simulate";
-  made.digest = "same";
-  made.body = std::string(1000000, 'x');  // more than the reserved space
-  const auto refused = jobs->create(made, {"CreateJob", "id", "x"});
+  NewJob definition;
+  definition.owner = "ann";
+  definition.work.verb = "simulate";
+  definition.digest = "same";
+  definition.body = std::string(1000000, 'x');  // more than the reserved space
+  const auto refused = jobs->create(definition, {"CreateJob", "id", "x"});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
   EXPECT_EQ(refused.error().reason, "DISK_FULL");
   EXPECT_EQ(jobs->list({})->size(), 1U);
   EXPECT_EQ(jobs->get(first)->state, JobState::kSucceeded);
   ASSERT_TRUE(database->run("PRAGMA max_page_count=1000000"));
-  EXPECT_TRUE(jobs->create(made, {"CreateJob", "id", "x"})->cache_hit);
+  EXPECT_TRUE(jobs->create(definition, {"CreateJob", "id", "x"})->cache_hit);
 }
 
 TEST_F(JobStoreTest, CancelSurvivesALostDaemon) {
@@ -211,7 +211,7 @@ TEST_F(JobStoreTest, MovedJobTakesOverRankAndPriority) {
     return ids;
   };
   EXPECT_EQ(order(), (std::vector<std::int64_t>{urgent, 1, 2, 3}));
-  EXPECT_EQ(queue->move(3, urgent)->made.priority, 5);
+  EXPECT_EQ(queue->move(3, urgent)->definition.priority, 5);
   EXPECT_EQ(order(), (std::vector<std::int64_t>{3, urgent, 1, 2}));
   ASSERT_TRUE(queue->move(3, 2));
   EXPECT_EQ(order(), (std::vector<std::int64_t>{urgent, 1, 3, 2}));
@@ -301,13 +301,13 @@ TEST_F(JobStoreTest, FailedTransactionIsRolledBack) {
 }
 
 NewJob new_dip() {
-  NewJob made;
-  made.owner = "ann";
-  made.work.verb = "dip";
-  made.traits.computed = false;
-  made.use_cache = false;
-  made.dip_status = "first";
-  return made;
+  NewJob definition;
+  definition.owner = "ann";
+  definition.work.verb = "dip";
+  definition.traits.computed = false;
+  definition.use_cache = false;
+  definition.dip_status = "first";
+  return definition;
 }
 
 TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
@@ -324,11 +324,11 @@ TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
 }
 
 NewJob new_print() {
-  NewJob made;
-  made.owner = "ann";
-  made.work.verb = "print";
-  made.traits = {false, true, "the printer may have printed this or not"};
-  return made;
+  NewJob definition;
+  definition.owner = "ann";
+  definition.work.verb = "print";
+  definition.traits = {false, true, "the printer may have printed this or not"};
+  return definition;
 }
 
 TEST_F(JobStoreTest, PrintsAreNotQueuedOrCachedAndRunOneAtATime) {

@@ -10,12 +10,12 @@ constexpr std::int64_t kKeep_ms = 1000;  // options of the fixture
 class Retention : public StoreTest {
  protected:
   Job dip(const std::string& owner = "ann") {
-    NewJob made;
-    made.owner = owner;
-    made.work.verb = "dip";
-    made.traits.computed = false;
-    made.dip_status = "first";
-    const Job job = jobs->create(made, {}).value();
+    NewJob definition;
+    definition.owner = owner;
+    definition.work.verb = "dip";
+    definition.traits.computed = false;
+    definition.dip_status = "first";
+    const Job job = jobs->create(definition, {}).value();
     return device_jobs->end(job.id, JobState::kSucceeded, {}, "", {}, "").value();
   }
   Job done(const std::string& digest, const std::string& owner = "ann") {
@@ -60,10 +60,10 @@ TEST_F(Retention, JobPinnedBeforeItsEndIsKept) {
 TEST_F(Retention, UnfinishedJobsAreNeverDeleted) {
   const Job queued = add("1"), running = add("2");
   ASSERT_TRUE(jobs->start(running.id));
-  NewJob made;
-  made.work.verb = "dip";
-  made.traits.computed = false;
-  const Job waiting = jobs->create(made, {}).value();
+  NewJob definition;
+  definition.work.verb = "dip";
+  definition.traits.computed = false;
+  const Job waiting = jobs->create(definition, {}).value();
   wait(1LL << 50);
   for (const Job& job : {queued, running, waiting}) EXPECT_TRUE(is_there(job)) << job.id;
 }
@@ -72,9 +72,9 @@ TEST_F(Retention, JobIsKeptAsLongAsItsCalibration) {
   CalibrationStore calibrations(*database, [this] { return now_ms; });
   const Job job = add("1");
   ASSERT_TRUE(jobs->start(job.id));
-  NewCalibration made;
-  made.job = job.id;
-  ASSERT_TRUE(jobs->succeed(job.id, {}, made));
+  NewCalibration definition;
+  definition.job = job.id;
+  ASSERT_TRUE(jobs->succeed(job.id, {}, definition));
   EXPECT_EQ(purge_ms(job), 0);
   wait(10 * kKeep_ms);
   ASSERT_TRUE(is_there(job));
@@ -113,10 +113,10 @@ TEST_F(Retention, ZeroKeepsForEverAndChangesApplyAtTheNextStart) {
 
 TEST_F(Retention, NothingIsDeletedDuringAPrint) {
   const Job old = done("1");
-  NewJob made;
-  made.work.verb = "print";
-  made.traits = {false, true, ""};
-  const Job print = jobs->create(made, {}).value();
+  NewJob definition;
+  definition.work.verb = "print";
+  definition.traits = {false, true, ""};
+  const Job print = jobs->create(definition, {}).value();
   wait(kKeep_ms);
   EXPECT_TRUE(is_there(old));  // it may be the job that is being printed
   ASSERT_TRUE(device_jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
@@ -192,10 +192,10 @@ TEST_F(Retention, QueueLimitAppliesToEachOwner) {
   open();
   add("1");
   const Job second = add("2");
-  NewJob made;
-  made.owner = "ann";
-  made.work.verb = "simulate";
-  const auto refused = jobs->create(made, {});
+  NewJob definition;
+  definition.owner = "ann";
+  definition.work.verb = "simulate";
+  const auto refused = jobs->create(definition, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
   EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
@@ -204,7 +204,7 @@ TEST_F(Retention, QueueLimitAppliesToEachOwner) {
   EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
   add("3", "bob");
   ASSERT_TRUE(jobs->start(second.id));  // running, so no longer queued
-  EXPECT_TRUE(jobs->create(made, {}));
+  EXPECT_TRUE(jobs->create(definition, {}));
 }
 
 TEST_F(Retention, JobsAreAcceptedBelowTheByteQuota) {
@@ -213,12 +213,12 @@ TEST_F(Retention, JobsAreAcceptedBelowTheByteQuota) {
   const Job first = done("1");  // 4 bytes
   const Job second = done("2");
   EXPECT_EQ(usage_of(*database, "ann")->stored_bytes, 8);
-  NewJob made;
-  made.owner = "ann";
+  NewJob definition;
+  definition.owner = "ann";
   for (const char* const verb : {"simulate", "dip", "print", "capture"}) {
-    made.work.verb = verb;
-    made.traits.computed = made.work.verb == "simulate";
-    const auto refused = jobs->create(made, {});
+    definition.work.verb = verb;
+    definition.traits.computed = definition.work.verb == "simulate";
+    const auto refused = jobs->create(definition, {});
     ASSERT_FALSE(refused) << verb;
     EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
     EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");

@@ -60,12 +60,12 @@ class StoreTest : public ::testing::Test {
 
   /// A job with this digest, owned by `owner`.
   Job add(const std::string& digest = "d", const std::string& owner = "ann", int priority = 0) {
-    NewJob made;
-    made.owner = owner;
-    made.priority = priority;
-    made.work.verb = "simulate";
-    made.digest = digest;
-    return jobs->create(made, {}).value();
+    NewJob definition;
+    definition.owner = owner;
+    definition.priority = priority;
+    definition.work.verb = "simulate";
+    definition.digest = digest;
+    return jobs->create(definition, {}).value();
   }
 
   /// Runs a job to its end with one artifact.

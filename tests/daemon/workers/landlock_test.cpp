@@ -12,16 +12,16 @@ TEST(FileFence, CoversOnlyTheSystemAndTheProgramsFolder) {
   const auto program = folder.path() / "bin" / "worker";
   for (const std::filesystem::path file :
        {"/etc/hydroprint/key.pem", "/usr/key.pem", "/etc/../etc/key.pem"}) {
-    EXPECT_TRUE(is_within_fence(file, program)) << file;
+    EXPECT_TRUE(is_within_ruleset(file, program)) << file;
   }
-  EXPECT_TRUE(is_within_fence(program.parent_path() / "key.pem", program));
+  EXPECT_TRUE(is_within_ruleset(program.parent_path() / "key.pem", program));
   for (const std::filesystem::path& file :
        {folder.path() / "key.pem", std::filesystem::path("/etcetera/key.pem"),
         std::filesystem::path("/var/lib/hydroprint/tls/key.pem")}) {
-    EXPECT_FALSE(is_within_fence(file, program)) << file;
+    EXPECT_FALSE(is_within_ruleset(file, program)) << file;
   }
   std::filesystem::create_symlink("/etc/passwd", folder.path() / "link.pem");
-  EXPECT_TRUE(is_within_fence(folder.path() / "link.pem", program));
+  EXPECT_TRUE(is_within_ruleset(folder.path() / "link.pem", program));
 }
 
 }  // namespace

@@ -9,14 +9,14 @@ namespace {
 int exited(int status) { return status << 8; }
 
 std::string reason(int wait_status, const char* words = "",
-                   StoppedFor stopped = StoppedFor::kNothing) {
+                   StopReason stopped = StopReason::kNothing) {
   return judge(wait_status, stopped, words)->error.reason;
 }
 
-TEST(Outcome, ExitZeroIsSuccess) { EXPECT_FALSE(judge(0, StoppedFor::kNothing, "warning: x\n")); }
+TEST(Outcome, ExitZeroIsSuccess) { EXPECT_FALSE(judge(0, StopReason::kNothing, "warning: x\n")); }
 
 TEST(Outcome, RefusedInputHasTheWorkersLastLine) {
-  const auto failure = judge(exited(3), StoppedFor::kNothing, "note\nspot.obj:7: NaN; fix it\n\n");
+  const auto failure = judge(exited(3), StopReason::kNothing, "note\nspot.obj:7: NaN; fix it\n\n");
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->error.code, Code::kInvalidArgument);
   EXPECT_EQ(failure->error.reason, "INPUT_REFUSED");
@@ -27,7 +27,7 @@ TEST(Outcome, RefusedInputHasTheWorkersLastLine) {
 
 TEST(Outcome, PrintedReasonIsUsedIfKnown) {
   const auto told = [](int status, const std::string& answer) {
-    return judge(status, StoppedFor::kNothing, "words", answer)->error.reason;
+    return judge(status, StopReason::kNothing, "words", answer)->error.reason;
   };
   EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED","metadata":{}}})"
                             "\n"),
@@ -50,13 +50,13 @@ TEST(Outcome, EachKindOfEndHasItsReason) {
   EXPECT_EQ(reason(SIGKILL), "WORKER_KILLED");
   EXPECT_EQ(reason(SIGXCPU), "TIME_LIMIT");
   EXPECT_EQ(reason(SIGXFSZ), "OUTPUT_LIMIT");
-  EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kTime), "TIME_LIMIT");
-  EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kMemory), "MEMORY_LIMIT");
+  EXPECT_EQ(reason(SIGKILL, "", StopReason::kTime), "TIME_LIMIT");
+  EXPECT_EQ(reason(SIGKILL, "", StopReason::kMemory), "MEMORY_LIMIT");
 }
 
 TEST(Outcome, LimitsAreToldByReasonCodesAndNotByWords) {
   const auto told = [](const std::string& reason) {
-    return judge(exited(4), StoppedFor::kNothing, "words",
+    return judge(exited(4), StopReason::kNothing, "words",
                  R"({"error":{"reason":")" + reason + "\"}}")
         ->error;
   };

@@ -198,7 +198,7 @@ TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
 TEST(Printer, TimesOutWhenThePrinterRespondsByteByByte) {
   const Listener listener;
   std::atomic<bool> stop = false;
-  std::thread dawdler([&] {
+  std::thread slow_client([&] {
     const int file = listener.accept();
     const std::string reply = "HTTP/1.1 200 OK\r\nContent-Type: application/ipp\r\n";
     for (std::size_t i = 0; !stop; ++i) {
@@ -211,7 +211,7 @@ TEST(Printer, TimesOutWhenThePrinterRespondsByteByByte) {
   timing.answer = milliseconds(400);
   EXPECT_EQ(Printer(listener.address(), timing).attributes().error().reason, "PRINTER_SILENT");
   stop = true;
-  dawdler.join();
+  slow_client.join();
 }
 
 TEST(Printer, ReportsServersThatAreNotPrinters) {

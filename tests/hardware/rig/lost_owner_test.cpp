@@ -114,8 +114,8 @@ TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
   EXPECT_GT(rested_s - clean_s, kStale_s);
   EXPECT_LT(rested_s - clean_s, kStale_s + 0.2);
   EXPECT_EQ(drive.mode(), "hold") << "stopped, not tripped";
-  EXPECT_TRUE(stop_channel.take_trip());
-  EXPECT_FALSE(stop_channel.take_trip());
+  EXPECT_TRUE(stop_channel.consume_trip());
+  EXPECT_FALSE(stop_channel.consume_trip());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace hydroprint::worker {
 namespace {
 
 /// Kinds of jobs that run on the rig, the printer or the camera.
-const std::set<std::string> kDoneByTheDaemon = {"dip", "print", "capture"};
+const std::set<std::string> kDaemonKinds = {"dip", "print", "capture"};
 
 std::string verb_name(std::string kind) {
   std::replace(kind.begin(), kind.end(), '_', '-');
@@ -28,7 +28,7 @@ TEST(Registry, EveryKindOfJobThatTheWorkerComputesHasAVerbWithItsSpec) {
     const auto& kind = *kinds->field(i);
     const auto verb = std::find_if(all.begin(), all.end(),
                                    [&](const Verb& v) { return v.name == verb_name(kind.name()); });
-    if (kDoneByTheDaemon.contains(kind.name())) {
+    if (kDaemonKinds.contains(kind.name())) {
       EXPECT_EQ(verb, all.end()) << kind.name();
       continue;
     }

@@ -61,7 +61,7 @@ class Session {
     ASSERT_EQ(::write(requests_.get(), lines.data(), lines.size()),
               static_cast<ssize_t>(lines.size()));
   }
-  void hang_up() { requests_.close(); }
+  void close_requests() { requests_.close(); }
   /// Sends one request and waits for its answer.
   Answer answer_to(const nlohmann::json& request) {
     ask(request.dump() + "\n");
@@ -150,7 +150,7 @@ TEST_F(Preview, SendsTheModelFirstAndThenItsLandingPoints) {
     }
   }
   EXPECT_GT(below, 100);
-  session.hang_up();
+  session.close_requests();
   EXPECT_EQ(session.wait().status, 0);
 }
 
@@ -224,7 +224,7 @@ TEST_F(Preview, RefusesInvalidRequestsAndContinues) {
 TEST_F(Preview, AnswersTheLastRequestAtEndOfInput) {
   Session session(preview());
   session.ask(turned(1, 0).dump() + "\n");
-  session.hang_up();
+  session.close_requests();
   ASSERT_GT(session.next().floats.size(), 0u);
   EXPECT_EQ(session.next().head.value("id", 0), 1);
   EXPECT_EQ(session.wait().status, 0);

@@ -124,4 +124,4 @@ export const people = {
   end: (name: string) => call<None>('DELETE', name),
 };
 
-export type Asked<T> = Promise<Result<T>>;
+export type Answer<T> = Promise<Result<T>>;

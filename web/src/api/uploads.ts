@@ -18,36 +18,36 @@ const wait = (seconds: number) => new Promise((resolve) => setTimeout(resolve, 1
 
 /**
  * Uploads a file unless the daemon already has it, and returns the name of its asset ("assets/...").
- * @param tell  called with the uploaded fraction, and with true while the connection is lost
+ * @param onProgress  called with the uploaded fraction, and with true while the connection is lost
  */
 export async function upload(
   file: Blob,
-  tell: (share: number, isLost: boolean) => void,
+  onProgress: (share: number, isLost: boolean) => void,
   signal: AbortSignal,
 ): Promise<Result<string>> {
   const bytes = await file.arrayBuffer().catch(() => undefined);
   if (!bytes) return refused('the file was moved or changed and cannot be read', 'Choose it again');
   const hash = await sha256(bytes);
-  const begun = new Begun(hash);
+  const resumable = new ResumableUpload(hash);
   let share = 0;
   for (let lost = 0; ; ) {
-    const answer = await step(file, hash, begun, signal);
+    const answer = await step(file, hash, resumable, signal);
     if (answer.ok) {
       if (answer.value.asset) {
-        begun.forget();
+        resumable.forget();
         return done(answer.value.asset.name);
       }
       lost = 0;
       const got = Number(answer.value.upload?.receivedBytes ?? 0);
       share = file.size > 0 ? got / file.size : 1;
-      tell(share, false);
+      onProgress(share, false);
       continue;
     }
     const { failure } = answer;
     if (signal.aborted || !passes(failure.status, failure.reason)) return answer;
     // If the daemon has discarded the upload, start again; otherwise continue from its offset.
-    if (failure.reason === 'UPLOAD_NOT_FOUND') begun.forget();
-    tell(share, failure.status === 0);
+    if (failure.reason === 'UPLOAD_NOT_FOUND') resumable.forget();
+    onProgress(share, failure.status === 0);
     await wait(kWaits_s[Math.min(lost, kWaits_s.length - 1)]!);
     lost += 1;
   }
@@ -62,21 +62,21 @@ const passes = (status: number | undefined, reason: string | undefined): boolean
 async function step(
   file: Blob,
   hash: string,
-  begun: Begun,
+  resumable: ResumableUpload,
   signal: AbortSignal,
 ): Promise<Result<Answer>> {
-  if (!begun.name) {
+  if (!resumable.name) {
     const answer = await call<Answer>('POST', 'uploads', {
       json: { sizeBytes: String(file.size), sha256: hash, mediaType: file.type || undefined },
       signal,
     });
-    if (answer.ok && answer.value.upload) begun.remember(answer.value.upload.name);
+    if (answer.ok && answer.value.upload) resumable.remember(answer.value.upload.name);
     return answer;
   }
-  const known = await call<Upload>('GET', begun.name, { signal });
+  const known = await call<Upload>('GET', resumable.name, { signal });
   if (!known.ok) return known;
   const offset = Number(known.value.receivedBytes);
-  const sent = await call<Partial<Asset>>('PATCH', begun.name, {
+  const sent = await call<Partial<Asset>>('PATCH', resumable.name, {
     bytes: file.slice(offset, offset + kChunk),
     headers: { 'Upload-Offset': String(offset), 'Content-Type': 'application/offset+octet-stream' },
     signal,
@@ -89,7 +89,7 @@ async function step(
 }
 
 /** Remembers, across reloads, the upload that was started for these bytes. */
-class Begun {
+class ResumableUpload {
   name: string | undefined;
   private readonly key: string;
 

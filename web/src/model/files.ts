@@ -1,7 +1,7 @@
 /**
  * Classifies dropped files. Every unusable file is refused with a reason and a remedy; none is ignored silently.
  */
-import type { Worn } from './mesh';
+import type { SurfaceMaterial } from './mesh';
 import { readMtl } from './obj';
 
 export interface Named {
@@ -107,7 +107,7 @@ export interface Arrangement<F extends Named> {
   /** Descriptions of the referenced files that are missing. */
   missing: string[];
   /** The appearance of each material, with its image if present. */
-  materials: Map<string, Worn & { file?: F }>;
+  materials: Map<string, SurfaceMaterial & { file?: F }>;
 }
 
 /**
@@ -118,13 +118,13 @@ export function arrange<F extends Named>(
   libraries: readonly string[],
   mtl: readonly { file: F; text: string }[],
   images: readonly F[],
-  own: ReadonlyMap<string, Worn> = new Map(),
+  own: ReadonlyMap<string, SurfaceMaterial> = new Map(),
 ): Arrangement<F> {
-  const materials = new Map<string, Worn & { file?: F }>();
+  const materials = new Map<string, SurfaceMaterial & { file?: F }>();
   const missing: string[] = [];
   const extra: Arrangement<F>['extra'] = [];
   const named = new Set<F>();
-  const add = (name: string, material: Worn) => {
+  const add = (name: string, material: SurfaceMaterial) => {
     const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
     if (material.map && !image) missing.push(`the image "${material.map}" of material "${name}"`);
     if (material.map && image && !named.has(image)) {

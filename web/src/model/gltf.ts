@@ -1,6 +1,6 @@
 /** Reads a glTF 2.0 model from one file (GLB, or JSON with embedded data): its geometry in world space and materials. */
 import { damaged, GltfFile, type Primitive } from './gltf_file';
-import type { Mesh, Worn } from './mesh';
+import type { Mesh, SurfaceMaterial } from './mesh';
 
 /** Column-major, as in glTF: three axes and the translation. */
 type Matrix = readonly number[];
@@ -30,7 +30,7 @@ class GltfReader {
   private readonly uvs: number[] = [];
   private readonly colours: number[] = [];
   private readonly parts: Mesh['parts'] = [];
-  private readonly materials = new Map<string, Worn>();
+  private readonly materials = new Map<string, SurfaceMaterial>();
   private nodes = 0;
   private hasUvs = false;
   private hasColours = false;

@@ -2,7 +2,7 @@ import { Refusal } from './result';
 import type { Vec3 } from './pose';
 
 /** The displayed part of a material: its colour, and its image, either by name or embedded in the model's file. */
-export interface Worn {
+export interface SurfaceMaterial {
   colour: [number, number, number];
   map?: string;
   picture?: { bytes: Uint8Array; type: string };
@@ -23,7 +23,7 @@ export interface Mesh {
   /** The material libraries that an OBJ references. */
   libraries: string[];
   /** Materials defined in the model's own file. */
-  materials?: Map<string, Worn>;
+  materials?: Map<string, SurfaceMaterial>;
   /** Length of one unit, if the file format defines it. */
   unit_mm?: number;
 }

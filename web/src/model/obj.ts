@@ -1,5 +1,5 @@
 import { Refusal } from './result';
-import type { Mesh, Worn } from './mesh';
+import type { Mesh, SurfaceMaterial } from './mesh';
 
 /** Reads a Wavefront OBJ: vertices, texture coordinates, polygons, and material names. */
 export function readObj(text: string): Mesh {
@@ -85,12 +85,12 @@ class ObjReader {
     const key = (t + 1) * 0x4000000 + p;
     const known = this.corners.get(key);
     if (known !== undefined) return known;
-    const made = this.positions.length / 3;
-    this.corners.set(key, made);
+    const corner = this.positions.length / 3;
+    this.corners.set(key, corner);
     for (let i = 0; i < 3; i += 1) this.positions.push(this.v[3 * p + i]!);
     this.uvs.push(t < 0 ? 0 : this.vt[2 * t]!, t < 0 ? 0 : this.vt[2 * t + 1]!);
     for (let i = 0; i < 3; i += 1) this.rgb.push(this.colours[3 * p + i] ?? 255);
-    return made;
+    return corner;
   }
 
   /** Converts an OBJ index, which counts from 1 or, if negative, back from the last element. */
@@ -107,9 +107,9 @@ class ObjReader {
 }
 
 /** Reads an MTL: maps each material's name to its displayed properties. */
-export function readMtl(text: string): Map<string, Worn> {
-  const materials = new Map<string, Worn>();
-  let current: Worn | undefined;
+export function readMtl(text: string): Map<string, SurfaceMaterial> {
+  const materials = new Map<string, SurfaceMaterial>();
+  let current: SurfaceMaterial | undefined;
   for (const raw of text.split('\n')) {
     const line = raw.trim();
     const [keyword, ...words] = line.split(/\s+/);

@@ -30,7 +30,7 @@ export const complain = ({ what, remedy }: Failure): void =>
   add({ kind: 'failure', what, ...(remedy ? { remedy } : {}) });
 
 /** Returns the value. A failure is shown as a notice, and undefined is returned. */
-export function orComplain<T>(result: Result<T>): T | undefined {
+export function orNotify<T>(result: Result<T>): T | undefined {
   if (result.ok) return result.value;
   complain(result.failure);
   return undefined;

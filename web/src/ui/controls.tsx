@@ -39,7 +39,7 @@ export function Button(props: {
 }
 
 /** A button for actions that cannot be undone: it asks for a second press. Escape or 6 s without a press cancels. */
-export function Careful(props: {
+export function ConfirmButton(props: {
   children: ComponentChildren;
   sure: string;
   onPress: () => unknown;
@@ -91,7 +91,7 @@ export function NumberField(props: {
   const id = useId();
   // If undefined, the field shows the value.
   const [typed, setTyped] = useState<string>();
-  const told = useRef(props.value);
+  const lastValue = useRef(props.value);
   const valueBefore = useRef(props.value);
   const isFocused = useRef(false);
   const shown =
@@ -105,8 +105,8 @@ export function NumberField(props: {
   useReportError(props.label, error !== undefined);
 
   const tell = (value: number | undefined) => {
-    if (value === told.current) return;
-    told.current = value;
+    if (value === lastValue.current) return;
+    lastValue.current = value;
     if (value === undefined) props.onEmpty?.();
     else props.onValue(value);
   };
@@ -118,8 +118,8 @@ export function NumberField(props: {
   // A value set from outside replaces the typed text, but not during typing.
   const follow = () => {
     if (isFocused.current && typed !== undefined) return;
-    if (isSame(props.value, told.current)) return;
-    told.current = props.value;
+    if (isSame(props.value, lastValue.current)) return;
+    lastValue.current = props.value;
     setTyped(undefined);
   };
   useEffect(follow, [props.value]);
@@ -146,7 +146,7 @@ export function NumberField(props: {
           aria-describedby={error ? `${id}-error` : undefined}
           onFocus={() => {
             isFocused.current = true;
-            valueBefore.current = told.current;
+            valueBefore.current = lastValue.current;
           }}
           onInput={(event) => take(event.currentTarget.value)}
           onBlur={() => {

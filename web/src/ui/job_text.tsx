@@ -48,7 +48,7 @@ export const State = ({ state }: { state: JobState }) => (
 );
 
 /** Progress and remaining time of a job. */
-export function HowFar({ job }: { job: Job }) {
+export function JobProgress({ job }: { job: Job }) {
   if (job.state === 'QUEUED') return <span class="quiet">waiting in the queue</span>;
   const left = secondsUntil(job.etaTime);
   return (

@@ -50,7 +50,7 @@ export class PoseView {
     this.gizmo.addEventListener('dragging-changed', (event) => {
       this.stage.controls.enabled = !event.value;
     });
-    this.gizmo.addEventListener('objectChange', () => this.tell());
+    this.gizmo.addEventListener('objectChange', () => this.emitPose());
     this.stage.scene.add(this.holder, this.gizmo.getHelper());
     this.setGizmo('rotate');
   }
@@ -139,7 +139,7 @@ export class PoseView {
     this.stage.dispose();
   }
 
-  private tell(): void {
+  private emitPose(): void {
     const { x, y, z, w } = this.holder.quaternion;
     const pose: Pose = {
       rotation: [w, x, y, z],

@@ -15,19 +15,19 @@ let count = 0;
 const waiting = new Map<number, (answer: Answer | undefined) => void>();
 
 function start(): Worker {
-  const made = new Worker(new URL('./mesh_worker.ts', import.meta.url), { type: 'module' });
-  made.onmessage = ({ data }: MessageEvent<{ id: number; answer: Answer }>) => {
+  const newWorker = new Worker(new URL('./mesh_worker.ts', import.meta.url), { type: 'module' });
+  newWorker.onmessage = ({ data }: MessageEvent<{ id: number; answer: Answer }>) => {
     waiting.get(data.id)?.(data.answer);
     waiting.delete(data.id);
   };
   // Most likely out of memory. The next request starts a new worker.
-  made.onerror = () => {
+  newWorker.onerror = () => {
     for (const give of waiting.values()) give(undefined);
     waiting.clear();
-    made.terminate();
+    newWorker.terminate();
     worker = undefined;
   };
-  return made;
+  return newWorker;
 }
 
 function ask(question: Question): Promise<Answer | undefined> {

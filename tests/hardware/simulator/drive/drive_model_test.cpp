@@ -17,7 +17,7 @@ struct Bench {
   Model model = switched_on(50);
 
   [[nodiscard]] bool order(Command command, double position_mm = 0, double speed = 0) {
-    const auto after = obey(machine, model, inputs, {command, position_mm, speed, 0});
+    const auto after = execute(machine, model, inputs, {command, position_mm, speed, 0});
     if (after) model = *after;
     return after.has_value();
   }
@@ -157,9 +157,9 @@ TEST(DriveModel, FrozenEncoderReportsAConstantPositionWhileTheCarriageMoves) {
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
   bench.run(1);
   bench.inputs.frozen = true;
-  const double told_mm = told(bench.model, bench.inputs).x_mm;
+  const double told_mm = feedback(bench.model, bench.inputs).x_mm;
   bench.run(1);
-  EXPECT_EQ(told(bench.model, bench.inputs).x_mm, told_mm);
+  EXPECT_EQ(feedback(bench.model, bench.inputs).x_mm, told_mm);
   EXPECT_GT(bench.model.actual.x_mm, 65);
   EXPECT_EQ(bench.model.alarm, kNoAlarm);
 }

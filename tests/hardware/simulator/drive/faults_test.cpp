@@ -19,7 +19,7 @@ TEST(Faults, LinesOfTheControlSocketAreParsed) {
   EXPECT_EQ(late->reply_fault.count, 3);
   EXPECT_EQ(parse_action("fault drop")->reply_fault.count, 1);
   EXPECT_EQ(parse_action("drop all")->reply_fault.count, -1);
-  EXPECT_EQ(parse_action("silent")->reply_fault.fault, ReplyFaultKind::kDeaf);
+  EXPECT_EQ(parse_action("silent")->reply_fault.fault, ReplyFaultKind::kDropRequest);
   EXPECT_EQ(parse_action("press stop")->input, Action::Input::kStopButton);
   EXPECT_EQ(parse_action("release positive-end")->kind, Action::Kind::kRelease);
   EXPECT_EQ(parse_action("stall")->kind, Action::Kind::kPress);
@@ -36,7 +36,7 @@ TEST(Faults, LinesOfTheControlSocketAreParsed) {
   ASSERT_TRUE(push);
   EXPECT_EQ(push->kind, Action::Kind::kPush);
   EXPECT_EQ(push->push_mm, Eigen::Vector2d(3.5, -2));
-  EXPECT_EQ(parse_action("hang held.json")->kind, Action::Kind::kHang);
+  EXPECT_EQ(parse_action("hang held.json")->kind, Action::Kind::kSetObject);
   EXPECT_EQ(parse_action("hang held.json")->name, "held.json");
   EXPECT_EQ(parse_action("hang held.json mug.obj")->mesh, "mug.obj");
   const auto shown = parse_action("show \"/my home/held.json\" board.obj");

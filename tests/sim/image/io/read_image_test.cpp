@@ -169,7 +169,7 @@ TEST(ReadImage, TheFormatIsDetectedByContentNotByName) {
   expect_refused(read_image(folder / "none.png", {}), Code::kNotFound, "none.png");
 }
 
-void lie_about_size(std::vector<char>& png, unsigned width, unsigned height) {
+void falsify_size(std::vector<char>& png, unsigned width, unsigned height) {
   for (int i = 0; i < 4; ++i) {
     png[16 + i] = static_cast<char>(width >> (24 - 8 * i));
     png[20 + i] = static_cast<char>(height >> (24 - 8 * i));
@@ -180,16 +180,16 @@ TEST(ReadImage, APngWithAFalseSizeIsRefusedBeforeDecoding) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "a.png", gradient(64, 64), 72));
   std::vector<char> png = bytes_of(folder / "a.png");
-  lie_about_size(png, 100000, 100000);
+  falsify_size(png, 100000, 100000);
   put(folder / "huge.png", png);
   expect_refused(read_image(folder / "huge.png", {}), Code::kOutOfRange, "huge.png");
-  lie_about_size(png, 14000, 14000);
+  falsify_size(png, 14000, 14000);
   put(folder / "large.png", png);
   expect_refused(read_image(folder / "large.png", {}), Code::kDataLoss, "large.png");
-  lie_about_size(png, 0, 64);
+  falsify_size(png, 0, 64);
   put(folder / "none.png", png);
   expect_refused(read_image(folder / "none.png", {}), Code::kDataLoss, "none.png");
-  lie_about_size(png, 64, 65);
+  falsify_size(png, 64, 65);
   put(folder / "one_more.png", png);
   expect_refused(read_image(folder / "one_more.png", {}), Code::kDataLoss, "one_more.png");
 }

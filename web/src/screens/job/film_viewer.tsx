@@ -7,11 +7,11 @@ interface Props {
   film: FilmImage;
   /** The film image without compensation, for comparison; undefined until it is requested. */
   straight: ImageBitmap | undefined;
-  askStraight: () => Promise<void>;
+  computeStraight: () => Promise<void>;
 }
 
 /** A viewer for the film image that can zoom to single pixels. */
-export function FilmViewer({ film, straight, askStraight }: Props) {
+export function FilmViewer({ film, straight, computeStraight }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { picture } = film;
   const [view, setView] = useState<View>();
@@ -96,7 +96,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
         <Button
           kind="plain"
           onPress={async () => {
-            await askStraight();
+            await computeStraight();
             setSplit(50);
           }}
         >

@@ -5,11 +5,11 @@ import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
 import { go } from '../../route';
 import { canRetry, forget, isFinished, known, refresh, remember } from '../../state/jobs';
-import { orComplain, say } from '../../state/notices';
+import { orNotify, say } from '../../state/notices';
 import { may, mayChange } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
-import { Button, Careful, Check } from '../../ui/controls';
-import { HowFar, kindOf, kindText, numberOf, State, When } from '../../ui/job_text';
+import { Button, ConfirmButton, Check } from '../../ui/controls';
+import { JobProgress, kindOf, kindText, numberOf, State, When } from '../../ui/job_text';
 import { CalibrateView } from './calibrate_view';
 import { CaptureView } from './capture_view';
 import { DipView } from './dip_view';
@@ -68,7 +68,7 @@ function Actions({ job }: { job: Job }) {
   const isDone = job.state === 'SUCCEEDED';
   const mine = mayChange(job.owner);
   const begin = async (spec: JobInput) => {
-    const made = orComplain(await api.create(spec, newRequestId()));
+    const made = orNotify(await api.create(spec, newRequestId()));
     if (!made) return;
     remember(made);
     go(`/${made.name}`);
@@ -101,20 +101,20 @@ function Actions({ job }: { job: Job }) {
         </a>
       )}
       {mine && !isFinished(job) && job.state !== 'CANCELLING' && (
-        <Careful
+        <ConfirmButton
           sure="Confirm cancel"
           onPress={async () => {
-            const cancelled = orComplain(await api.cancel(job.name));
+            const cancelled = orNotify(await api.cancel(job.name));
             if (cancelled) remember(cancelled);
           }}
         >
           Cancel
-        </Careful>
+        </ConfirmButton>
       )}
       {mine && canRetry(job) && (
         <Button
           onPress={async () => {
-            const again = orComplain(await api.retry(job.name, newRequestId()));
+            const again = orNotify(await api.retry(job.name, newRequestId()));
             if (!again) return;
             remember(again);
             go(`/${again.name}`);
@@ -137,23 +137,23 @@ function Keeping({ job }: { job: Job }) {
         value={job.shared}
         onValue={(shared) =>
           void api.share(job.name, shared).then((answer) => {
-            const changed = orComplain(answer);
+            const changed = orNotify(answer);
             if (changed) remember(changed);
           })
         }
       />
-      <Careful
+      <ConfirmButton
         kind="plain"
         sure="Delete job and files"
         onPress={async () => {
-          if (!orComplain(await api.remove(job.name))) return;
+          if (!orNotify(await api.remove(job.name))) return;
           forget(job.name);
           say('The job was deleted');
           go('/jobs');
         }}
       >
         Delete
-      </Careful>
+      </ConfirmButton>
     </>
   );
 }
@@ -174,7 +174,7 @@ function Underway({ job }: { job: Job }) {
   if (kindOf(job) === 'dip') return <Left job={job} />;
   return (
     <section class="underway" role="status">
-      <HowFar job={job} />
+      <JobProgress job={job} />
       {job.state === 'RUNNING' && left !== undefined && left > 0 && (
         <p class="clock">
           {formatSeconds(Math.ceil(left))}

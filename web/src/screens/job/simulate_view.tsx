@@ -99,7 +99,7 @@ function FilmTab({ results }: { results: Results }) {
       <FilmViewer
         film={film}
         straight={straight}
-        askStraight={() => {
+        computeStraight={() => {
           setWanted(true);
           return new Promise((resolve) => (arrived.current = resolve));
         }}

@@ -3,14 +3,14 @@ import { computed, signal } from '@preact/signals';
 import { calibrations as api } from '../../api/services';
 import type { Calibration } from '../../api/types';
 import { fromApi, type Pose } from '../../model/pose';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { centre_mm, draft } from './draft';
 
 /** Calibrations of objects (not of cameras), newest first. */
 export const calibrations = signal<Calibration[]>([]);
 
 export async function refreshCalibrations(): Promise<void> {
-  const page = orComplain(await api.list());
+  const page = orNotify(await api.list());
   if (page) calibrations.value = page.calibrations.filter(({ kind }) => kind === 'OBJECT');
 }
 

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 import { route } from '../../route';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { may } from '../../state/session';
 import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { refreshCalibrations } from './calibration';
@@ -21,10 +21,10 @@ async function prepare(from: string | null): Promise<void> {
   if (!isRestored) await restore();
   isRestored = true;
   if (from && draft.value.from?.job !== from) {
-    if (!orComplain(await startFrom(from))) return;
+    if (!orNotify(await startFrom(from))) return;
   }
   if (draft.value.files.length > 0) await reread();
-  else if (draft.value.from) orComplain(await shapeOfJob(draft.value.from.job));
+  else if (draft.value.from) orNotify(await shapeOfJob(draft.value.from.job));
 }
 
 export function NewPrint() {
@@ -51,7 +51,7 @@ export function NewPrint() {
           </p>
         )}
         <FieldErrorsOf value={errors}>
-          {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
+          {hasObject || problems.value.length > 0 ? <Taken /> : <Instructions />}
           <PosePanel />
           {hasObject && <PreviewPanel />}
           <FilmPanel />
@@ -69,7 +69,7 @@ export function NewPrint() {
 }
 
 /** Instructions for first-time users. */
-const HowItGoes = () => (
+const Instructions = () => (
   <section>
     <h2>How it works</h2>
     <ol>

@@ -4,7 +4,7 @@ import { limitsOf } from '../../model/limits';
 import { formatBytes, formatMm } from '../../model/units';
 import { Button, NumberField } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
 import { change, draft, longest_mm, shape } from './draft';
 import { isReading, problems, samples, take, takeSample } from './intake';
@@ -80,7 +80,7 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
         <p class="samples">
           Or try a sample:{' '}
           {ready.map(({ name, label }) => (
-            <Button key={name} onPress={async () => orComplain(await takeSample(name))}>
+            <Button key={name} onPress={async () => orNotify(await takeSample(name))}>
               {label}
             </Button>
           ))}

@@ -37,26 +37,26 @@ const kPause_ms = 60;
 
 /** Keeps the preview up to date until the returned function is called. */
 export function followPreview(): () => void {
-  const asker = new Asker();
+  const requester = new PreviewRequester();
   const inputs = computed(() => (shape.value ? inputsOf(draft.value.files) : []));
   const ends = [
     effect(() => {
       void draft.value.files;
-      void asker.bring(inputs.value);
+      void requester.bring(inputs.value);
     }),
     effect(() => {
       void draft.value;
       void calibrated.value;
-      asker.askSoon();
+      requester.schedule();
     }),
   ];
   return () => {
     ends.forEach((end) => end());
-    asker.end();
+    requester.end();
   };
 }
 
-class Asker {
+class PreviewRequester {
   private mesh: Inputs | undefined;
   private files: readonly File[] = [];
   private bringing = new AbortController();
@@ -79,14 +79,14 @@ class Asker {
     this.files = wanted.map(({ file }) => file);
     this.bringing.abort();
     this.bringing = new AbortController();
-    const { signal: goOn } = this.bringing;
+    const { signal: abortSignal } = this.bringing;
     this.mesh = undefined;
     shown.value = undefined;
     if (wanted.length === 0 || !may('MAKER')) return;
     const out: Partial<Inputs> & { extraFiles: Inputs['extraFiles'] } = { extraFiles: [] };
     for (const { role, name, file } of wanted) {
-      const asset = await upload(file, () => {}, goOn);
-      if (!asset.ok || goOn.aborted) return;
+      const asset = await upload(file, () => {}, abortSignal);
+      if (!asset.ok || abortSignal.aborted) return;
       const input = { name, asset: asset.value };
       if (role === 'mesh') out.mesh = input;
       else if (role === 'profile') out.profile = input;
@@ -94,10 +94,10 @@ class Asker {
     }
     if (!out.mesh) return;
     this.mesh = { ...out, mesh: out.mesh };
-    this.askSoon();
+    this.schedule();
   }
 
-  askSoon(): void {
+  schedule(): void {
     window.clearTimeout(this.timer);
     this.timer = window.setTimeout(() => void this.ask(), kPause_ms);
   }
@@ -121,12 +121,12 @@ class Asker {
     if (this.isOff || !inputs?.mesh || !shape.value) return;
     this.asking.abort();
     this.asking = new AbortController();
-    const { signal: goOn } = this.asking;
+    const { signal: abortSignal } = this.asking;
     const { simulate } = jobOf(draft.value, inputs, centre_mm.value);
     const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
-    const answer = await compute(partOf(simulate, inputs), this.known?.key !== key, goOn);
-    if (goOn.aborted) return;
+    const answer = await compute(partOf(simulate, inputs), this.known?.key !== key, abortSignal);
+    if (abortSignal.aborted) return;
     isComputing.value = false;
     if (answer.ok) return this.show(answer.value, key);
     if (answer.failure.status === 404 || answer.failure.status === 501) this.isOff = true;
@@ -161,9 +161,9 @@ class Asker {
 const compute = (
   simulate: SimulateSpecInput,
   withMesh: boolean,
-  goOn: AbortSignal,
+  abortSignal: AbortSignal,
 ): Promise<Result<Preview>> =>
-  call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: goOn });
+  call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: abortSignal });
 
 /** The part of a simulation's spec that affects its preview. */
 function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {

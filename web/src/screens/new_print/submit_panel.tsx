@@ -20,14 +20,14 @@ interface Sending {
 
 const sending = signal<Sending | undefined>(undefined);
 const failure = signal<Failure | undefined>(undefined);
-let giveUp: AbortController | undefined;
+let abortController: AbortController | undefined;
 
 /** Uploads all files and creates the job. */
 async function submit(): Promise<void> {
-  giveUp = new AbortController();
+  abortController = new AbortController();
   failure.value = undefined;
   if (!draft.value.requestId) change({});
-  const result = await send(giveUp.signal);
+  const result = await send(abortController.signal);
   sending.value = undefined;
   if (!result.ok) {
     if (result.failure.reason === 'ABORTED_HERE') return;
@@ -129,7 +129,7 @@ function Underway({ name, share, isLost }: Sending) {
         {Math.round(100 * share)} %)
       </p>
       <Progress share={share} label={`Uploading ${name}`} />
-      <button type="button" onClick={() => giveUp?.abort()}>
+      <button type="button" onClick={() => abortController?.abort()}>
         Cancel
       </button>
     </div>

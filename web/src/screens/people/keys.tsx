@@ -2,11 +2,11 @@ import { useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
 import { people as api } from '../../api/services';
 import type { Role } from '../../api/types';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { may, who } from '../../state/session';
-import { Button, Careful, Choice, TextField } from '../../ui/controls';
+import { Button, ConfirmButton, Choice, TextField } from '../../ui/controls';
 import { When } from '../../ui/job_text';
-import { List, Once, plainName, useAsked } from './list';
+import { List, Once, plainName, useFetched } from './list';
 import { kRoles } from './users';
 
 const kDay_s = 86_400;
@@ -18,7 +18,7 @@ const kTimes = [
 
 /** API keys, with which scripts act for their owner. */
 export function Keys() {
-  const { value, failure, again } = useAsked(api.keys);
+  const { value, failure, again } = useFetched(api.keys);
   const [secret, setSecret] = useState('');
   const keys = value?.apiKeys ?? [];
   return (
@@ -41,16 +41,16 @@ export function Keys() {
               {key.expireTime ? <When time={key.expireTime} /> : 'never'}
             </td>
             <td class="actions">
-              <Careful
+              <ConfirmButton
                 kind="plain"
                 sure="Confirm deletion"
                 onPress={async () => {
-                  orComplain(await api.end(key.name));
+                  orNotify(await api.end(key.name));
                   await again();
                 }}
               >
                 Delete
-              </Careful>
+              </ConfirmButton>
             </td>
           </tr>
         ))}
@@ -72,7 +72,7 @@ function NewKey({ made }: { made: (key: string) => Promise<void> }) {
   const [role, setRole] = useState<Role>(who.value?.role ?? 'VIEWER');
   const [time, setTime] = useState(kTimes[1]!.value);
   const create = async () => {
-    const answer = orComplain(await api.createKey(name, role, Number(time) || undefined));
+    const answer = orNotify(await api.createKey(name, role, Number(time) || undefined));
     if (answer) await made(answer.key);
   };
   return (

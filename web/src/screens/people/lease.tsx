@@ -1,7 +1,7 @@
 import { useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
 import { breakLease, rig } from '../../state/rig';
-import { Careful, Figures, TextField } from '../../ui/controls';
+import { ConfirmButton, Figures, TextField } from '../../ui/controls';
 import { When } from '../../ui/job_text';
 
 /** The holder of the lease, and a button to break it. */
@@ -28,13 +28,13 @@ export function Lease() {
             onValue={setReason}
             maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
           />
-          <Careful
+          <ConfirmButton
             kind="danger"
             sure={`Take the lease from ${lease.holder}`}
             onPress={() => breakLease(reason.trim() || 'no reason given')}
           >
             Break the lease
-          </Careful>
+          </ConfirmButton>
         </>
       )}
     </section>

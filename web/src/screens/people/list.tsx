@@ -1,10 +1,10 @@
 import type { ComponentChildren } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
-import type { Asked } from '../../api/services';
+import type { Answer } from '../../api/services';
 import type { Failure } from '../../model/result';
 
 /** Fetches a list from the daemon; `again` fetches it once more. */
-export function useAsked<T>(ask: () => Asked<T>): {
+export function useFetched<T>(ask: () => Answer<T>): {
   value: T | undefined;
   failure: Failure | undefined;
   again: () => Promise<void>;

@@ -1,6 +1,6 @@
 import { useState } from 'preact/hooks';
 import { people as api } from '../../api/services';
-import { orComplain, say } from '../../state/notices';
+import { orNotify, say } from '../../state/notices';
 import { begin, me, who } from '../../state/session';
 import { Button, TextField } from '../../ui/controls';
 
@@ -8,7 +8,7 @@ export function OwnPassword() {
   const [before, setBefore] = useState('');
   const [after, setAfter] = useState('');
   const set = async () => {
-    if (!orComplain(await api.setPassword(`users/${me.value}`, after, before || undefined))) return;
+    if (!orNotify(await api.setPassword(`users/${me.value}`, after, before || undefined))) return;
     setBefore('');
     setAfter('');
     say('Password changed. Your other sessions have ended');

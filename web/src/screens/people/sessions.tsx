@@ -1,12 +1,12 @@
 import { people as api } from '../../api/services';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { Button } from '../../ui/controls';
 import { When } from '../../ui/job_text';
-import { List, plainName, useAsked } from './list';
+import { List, plainName, useFetched } from './list';
 
 /** All open sessions. */
 export function Sessions() {
-  const { value, failure, again } = useAsked(api.sessions);
+  const { value, failure, again } = useFetched(api.sessions);
   const sessions = value?.sessions ?? [];
   return (
     <section aria-labelledby="sessions-title">
@@ -38,7 +38,7 @@ export function Sessions() {
                 <Button
                   kind="plain"
                   onPress={async () => {
-                    orComplain(await api.end(session.name));
+                    orNotify(await api.end(session.name));
                     await again();
                   }}
                 >

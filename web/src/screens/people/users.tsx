@@ -1,11 +1,11 @@
 import { useState } from 'preact/hooks';
 import { people as api } from '../../api/services';
 import type { Role, User } from '../../api/types';
-import { orComplain, say } from '../../state/notices';
+import { orNotify, say } from '../../state/notices';
 import { begin, may, me } from '../../state/session';
-import { Button, Careful, Choice, TextField } from '../../ui/controls';
+import { Button, ConfirmButton, Choice, TextField } from '../../ui/controls';
 import { When } from '../../ui/job_text';
-import { List, Once, plainName, useAsked } from './list';
+import { List, Once, plainName, useFetched } from './list';
 
 export const kRoles: readonly { value: Role; label: string }[] = [
   { value: 'VIEWER', label: 'Viewer: can view jobs and the rig, and stop the rig' },
@@ -15,11 +15,11 @@ export const kRoles: readonly { value: Role; label: string }[] = [
 ];
 
 export function Users() {
-  const { value, failure, again } = useAsked(api.users);
+  const { value, failure, again } = useFetched(api.users);
   const [link, setLink] = useState<{ user: string; address: string }>();
   const users = value?.users ?? [];
   const makeLink = async (user: User) => {
-    const made = orComplain(await api.link(user.name));
+    const made = orNotify(await api.link(user.name));
     if (made)
       setLink({ user: plainName(user.name), address: `${location.origin}/sign-in#${made.token}` });
   };
@@ -50,7 +50,7 @@ export function Users() {
 function Row(props: { user: User; again: () => Promise<void>; makeLink: () => Promise<void> }) {
   const { user, again } = props;
   const change = async (what: { role?: Role; disabled?: boolean }) => {
-    orComplain(await api.update(user.name, what));
+    orNotify(await api.update(user.name, what));
     await again();
   };
   return (
@@ -79,16 +79,16 @@ function Row(props: { user: User; again: () => Promise<void>; makeLink: () => Pr
         <Button kind="plain" onPress={() => change({ disabled: !user.disabled })}>
           {user.disabled ? 'Enable' : 'Disable'}
         </Button>
-        <Careful
+        <ConfirmButton
           kind="plain"
           sure={`Delete ${plainName(user.name)}`}
           onPress={async () => {
-            orComplain(await api.remove(user.name));
+            orNotify(await api.remove(user.name));
             await again();
           }}
         >
           Delete
-        </Careful>
+        </ConfirmButton>
       </td>
     </tr>
   );
@@ -99,7 +99,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
   const [password, setPassword] = useState('');
   const [role, setRole] = useState<Role>('MAKER');
   const create = async () => {
-    const made = orComplain(
+    const made = orNotify(
       await api.create({ name: `users/${name}`, role: isFirst ? 'ADMIN' : role }, password),
     );
     if (!made) return;

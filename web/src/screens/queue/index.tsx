@@ -14,16 +14,16 @@ import {
   queue,
   remember,
 } from '../../state/jobs';
-import { orComplain, say } from '../../state/notices';
+import { orNotify, say } from '../../state/notices';
 import { may, mayChange, me } from '../../state/session';
 import { Button, Switch, TextField } from '../../ui/controls';
-import { HowFar, kindText, numberOf, State, When } from '../../ui/job_text';
+import { JobProgress, kindText, numberOf, State, When } from '../../ui/job_text';
 
-type Whose = 'mine' | 'all';
+type OwnerFilter = 'mine' | 'all';
 type Which = 'all' | 'open' | 'finished';
 
 /** Pages of jobs, newest first, fetched again when jobs arrive. */
-function usePages(whose: Whose, which: Which) {
+function usePages(whose: OwnerFilter, which: Which) {
   const [names, setNames] = useState<string[]>();
   const [next, setNext] = useState('');
   const query = {
@@ -31,7 +31,7 @@ function usePages(whose: Whose, which: Which) {
     ...(which === 'all' ? {} : { states: which === 'open' ? kOpen : kFinished }),
   };
   const more = async (pageToken: string, before: string[]) => {
-    const page = orComplain(await api.list({ ...query, pageToken }));
+    const page = orNotify(await api.list({ ...query, pageToken }));
     if (!page) return;
     remember(...page.jobs);
     setNames([...before, ...page.jobs.map((job) => job.name)]);
@@ -47,7 +47,7 @@ function usePages(whose: Whose, which: Which) {
 }
 
 export function QueueScreen() {
-  const [whose, setWhose] = useState<Whose>('all');
+  const [whose, setWhose] = useState<OwnerFilter>('all');
   const [which, setWhich] = useState<Which>('all');
   const { names, next, more } = usePages(whose, which);
   const rows = (names ?? []).flatMap((name) => known.value.get(name) ?? []);
@@ -55,7 +55,7 @@ export function QueueScreen() {
     <div class="queue">
       <h1>Jobs</h1>
       <div class="row">
-        <Switch<Whose>
+        <Switch<OwnerFilter>
           label="Owner"
           value={whose}
           onValue={setWhose}
@@ -110,7 +110,7 @@ function Line() {
         (line.paused ? (
           <Button
             onPress={async () => {
-              queue.value = orComplain(await queueApi.resume()) ?? line;
+              queue.value = orNotify(await queueApi.resume()) ?? line;
             }}
           >
             Resume
@@ -127,7 +127,7 @@ function Line() {
             />
             <Button
               onPress={async () => {
-                queue.value = orComplain(await queueApi.pause(reason)) ?? line;
+                queue.value = orNotify(await queueApi.pause(reason)) ?? line;
               }}
             >
               Pause
@@ -171,7 +171,7 @@ function Row({ job }: { job: Job }) {
       </th>
       <td>
         <State state={job.state} />
-        {(job.state === 'RUNNING' || job.state === 'CANCELLING') && <HowFar job={job} />}
+        {(job.state === 'RUNNING' || job.state === 'CANCELLING') && <JobProgress job={job} />}
         {place >= 0 && <span class="quiet">position {place + 1}</span>}
         {job.state === 'FAILED' && <span class="why">{job.error?.message}</span>}
       </td>
@@ -197,7 +197,7 @@ function Actions({ job, place }: { job: Job; place: number }) {
           kind="plain"
           label={`Move ${id} to the front`}
           onPress={async () => {
-            const moved = orComplain(await api.moveToFront(job.name, first));
+            const moved = orNotify(await api.moveToFront(job.name, first));
             if (moved) remember(moved);
           }}
         >
@@ -209,7 +209,7 @@ function Actions({ job, place }: { job: Job; place: number }) {
           kind="plain"
           label={`Cancel ${id}`}
           onPress={async () => {
-            const cancelled = orComplain(await api.cancel(job.name));
+            const cancelled = orNotify(await api.cancel(job.name));
             if (cancelled) remember(cancelled);
           }}
         >
@@ -221,7 +221,7 @@ function Actions({ job, place }: { job: Job; place: number }) {
           kind="plain"
           label={`Retry ${id}`}
           onPress={async () => {
-            const again = orComplain(await api.retry(job.name, newRequestId()));
+            const again = orNotify(await api.retry(job.name, newRequestId()));
             if (!again) return;
             remember(again);
             say(`${job.displayName} was submitted again`);

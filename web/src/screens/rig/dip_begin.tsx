@@ -5,7 +5,7 @@ import type { DipSpecInput } from '../../api/types';
 import { limitsOf } from '../../model/limits';
 import { jobPath } from '../../route';
 import { known, refresh, remember } from '../../state/jobs';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { isOurs, leaseId, refreshRig, rig } from '../../state/rig';
 import { Button, NumberField } from '../../ui/controls';
 import { FieldErrorsOf, remedyOf, useFieldErrors } from '../../ui/field_errors';
@@ -21,7 +21,7 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const isReady = isOurs.value && rig.value?.state === 'IDLE';
   const remedy = remedyOf(errors);
   const begin = async () => {
-    const job = orComplain(
+    const job = orNotify(
       await api.create({ dip: { ...spec, simulateJob } }, requestId, leaseId.value),
     );
     if (!job) return;

@@ -4,10 +4,10 @@ import type { Job } from '../../api/types';
 import { formatSeconds } from '../../model/units';
 import { jobPath } from '../../route';
 import { known, refresh, remember } from '../../state/jobs';
-import { orComplain } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { isOurs, leaseId, rig } from '../../state/rig';
 import { secondsUntil } from '../../ui/clock';
-import { Button, Careful } from '../../ui/controls';
+import { Button, ConfirmButton } from '../../ui/controls';
 import { State } from '../../ui/job_text';
 import { Jog } from './jog';
 
@@ -75,13 +75,13 @@ export function DipGuide({ name }: { name: string }) {
       <p class="row">
         <a href={jobPath(name)}>Dip record</a>
         {isOurs.value && (
-          <Careful
+          <ConfirmButton
             sure="Confirm abort; the film will be lost"
             kind="plain"
             onPress={() => abort(name)}
           >
             Abort the dip
-          </Careful>
+          </ConfirmButton>
         )}
       </p>
     </section>
@@ -110,7 +110,7 @@ export function DipEnd({ name, again }: { name: string; again: () => void }) {
 }
 
 async function abort(name: string): Promise<void> {
-  const job = orComplain(await api.cancel(name));
+  const job = orNotify(await api.cancel(name));
   if (job) remember(job);
 }
 
@@ -125,7 +125,7 @@ function Confirm({ job, words }: { job: Job; words: string | undefined }) {
       kind="primary"
       onPress={async () => {
         const step = job.dipStatus?.step ?? '';
-        const next = orComplain(await api.confirm(job.name, step, leaseId.value));
+        const next = orNotify(await api.confirm(job.name, step, leaseId.value));
         if (next) remember(next);
       }}
     >

@@ -17,7 +17,7 @@ import {
 } from '../../state/rig';
 import { may, me } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
-import { Button, Careful, Figures, NumberField, TextField } from '../../ui/controls';
+import { Button, ConfirmButton, Figures, NumberField, TextField } from '../../ui/controls';
 import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { DepthPicture } from './depth_picture';
 import { DipEnd, DipGuide } from './dip_guide';
@@ -167,13 +167,13 @@ function LeasePanel({ now }: { now: Rig }) {
                 onValue={setReason}
                 maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
               />
-              <Careful
+              <ConfirmButton
                 sure={`Take the rig from ${lease.holder}`}
                 kind="danger"
                 onPress={() => breakLease(reason.trim() || 'no reason given')}
               >
                 Break the lease
-              </Careful>
+              </ConfirmButton>
             </details>
           )}
         </>
@@ -209,13 +209,13 @@ function Commands({ now }: { now: Rig }) {
           </Button>
         )}
         {now.enabled && !isMoving.value && (
-          <Careful
+          <ConfirmButton
             sure="Confirm disarm; the axis may sink"
             kind="plain"
             onPress={() => command(api.disarm)}
           >
             Disarm
-          </Careful>
+          </ConfirmButton>
         )}
       </div>
       {/* Hidden, not removed, so that the typed number is kept while the axis moves. */}

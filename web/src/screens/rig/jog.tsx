@@ -15,13 +15,13 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   const speedNow = useRef(speed);
   speedNow.current = speed;
   const held = useRef(0);
-  const isTelling = useRef(false);
+  const isSending = useRef(false);
 
   const tell = async () => {
-    if (held.current === 0 || isTelling.current) return;
-    isTelling.current = true;
+    if (held.current === 0 || isSending.current) return;
+    isSending.current = true;
     const answer = await api.jog(leaseId.value, held.current * Number(speedNow.current));
-    isTelling.current = false;
+    isSending.current = false;
     if (answer.ok) {
       rig.value = answer.value;
     } else {
@@ -29,7 +29,7 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
       complain(answer.failure);
     }
   };
-  const letGo = () => {
+  const endJog = () => {
     if (held.current === 0) return;
     held.current = 0;
     void api.stop();
@@ -43,15 +43,15 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   useEffect(() => {
     const timer = window.setInterval(() => void tell(), kEvery_ms);
     // Losing the window's focus or the pointer also ends the jog.
-    window.addEventListener('blur', letGo);
-    window.addEventListener('pointerup', letGo);
-    window.addEventListener('pointercancel', letGo);
+    window.addEventListener('blur', endJog);
+    window.addEventListener('pointerup', endJog);
+    window.addEventListener('pointercancel', endJog);
     return () => {
       window.clearInterval(timer);
-      window.removeEventListener('blur', letGo);
-      window.removeEventListener('pointerup', letGo);
-      window.removeEventListener('pointercancel', letGo);
-      letGo();
+      window.removeEventListener('blur', endJog);
+      window.removeEventListener('pointerup', endJog);
+      window.removeEventListener('pointercancel', endJog);
+      endJog();
     };
     // Runs once only: rendering again while the rig moves must not end the jog.
   }, []);
@@ -72,8 +72,8 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
           hold(direction);
         }
       }}
-      onKeyUp={letGo}
-      onBlur={letGo}
+      onKeyUp={endJog}
+      onBlur={endJog}
     >
       <Icon name={direction > 0 ? 'down' : 'up'} /> {label}
     </button>
