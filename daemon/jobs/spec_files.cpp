@@ -68,8 +68,8 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
   if (const std::string name = ambiguous_name(out); !name.empty()) {
     return fail(
         Code::kInvalidArgument,
-        fmt::format("{}: the name \"{}\" is used for two files; use a different name for each file", path,
-                    name),
+        fmt::format("{}: the name \"{}\" is used for two files; use a different name for each file",
+                    path, name),
         "NAME_INVALID");
   }
   return out;

@@ -35,8 +35,8 @@ class Texture {
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
-  /// A fast path for samples of an affine patch. It applies to the common case: samples of at most a
-  /// texel in size that lie among four texels of their chart, away from the edge of the texture.
+  /// A fast path for samples of an affine patch. It applies to the common case: samples of at most
+  /// a texel in size that lie among four texels of their chart, away from the edge of the texture.
   /// The texture must outlive it, and must not be moved.
   class Shortcut {
    public:

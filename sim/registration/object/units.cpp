@@ -70,8 +70,7 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
                                        three_digits(mesh_mm), three_digits(scan_mm));
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
-                what + ". Use the complete mesh of the object in the gripper",
-                "NOT_THIS_OBJECT");
+                what + ". Use the complete mesh of the object in the gripper", "NOT_THIS_OBJECT");
   return fail(Code::kFailedPrecondition,
               fmt::format("{}. {} {}. Give a scale {} times {}", what,
                           too_large ? "Its lengths were read as" : "Its file seems to be in",
