@@ -7,6 +7,7 @@
 
 #include "daemon/jobs/executor.h"
 #include "daemon/printing/session.h"
+#include "daemon/store/job_store.h"
 
 namespace hydroprint::daemon {
 
