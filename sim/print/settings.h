@@ -37,9 +37,6 @@ struct ColourSettings {
 /// for sides below 10 mm or above 2000 mm.
 [[nodiscard]] Result<Eigen::Vector2d> parse_paper(const std::string& text);
 
-/// Formats a number for messages: six digits, without trailing zeros.
-[[nodiscard]] std::string text_of(double value);
-
 /// Returns kOutOfRange, naming the setting, for values out of range and settings that contradict
 /// each other.
 [[nodiscard]] Status check(const PageSettings& settings);

@@ -1,5 +1,6 @@
 #include "sim/worker/common/flags.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/message.h>
 
 #include <CLI/CLI.hpp>
