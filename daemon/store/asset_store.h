@@ -47,7 +47,7 @@ struct AssetStoreOptions {
   std::int64_t max_open_uploads = 64;
   std::int64_t upload_expires_ms = 24LL * 3600 * 1000;
   std::int64_t min_free_bytes = 512LL << 20;
-  std::int64_t keep_unused_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
+  std::int64_t keep_unused_ms = 30LL * 24 * 3600 * 1000;  ///< 0: forever
   Quota quota = {};                                       ///< quota of each owner
 };
 

@@ -132,7 +132,7 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
   return get(id);
 }
 
-// Gives a job the artifacts of a finished job with the same inputs, if there is one.
+// Reuses the artifacts of a finished job with the same inputs, if there is one.
 Result<bool> JobStore::adopt_cached(const Job& job) {
   if (!job.made.use_cache) return false;
   HP_ASSIGN_OR_RETURN(

@@ -41,8 +41,8 @@ struct QueuePause {
 /// Limits of the store.
 struct JobStoreOptions {
   std::int64_t max_queued = 1000;
-  std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
-  std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< minimum for dips; 0: for ever
+  std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;  ///< 0: forever
+  std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< minimum for dips; 0: forever
   Quota quota = {};                                         ///< quota of each owner
 };
 

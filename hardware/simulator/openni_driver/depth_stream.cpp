@@ -130,7 +130,7 @@ void DepthStream::run(RigLine line) {
 bool DepthStream::tell_frame(RigLine& line, int index) {
   const auto said = line.ask("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
-  // A rig that is stopped does not reply: then no frame arrives, as from a camera that hangs.
+  // A suspended rig does not reply. Then no frame arrives, like from a camera that hangs.
   if (!said) return said.error().code == Code::kAborted;
   simulated_scene::Sight sight = *said;
   if (sight.camera == simulated_scene::CameraState::kGone) return false;
