@@ -20,7 +20,7 @@ namespace hydroprint::cli {
 namespace {
 
 /// Arms and homes the axis, also after a fault. On an overloaded machine, the drive's watchdog may
-/// stop the axis between two poses, which does no harm.
+/// stop the axis between two poses, which is harmless.
 Status make_ready(Program& program, const HeldLease& lease) {
   HP_ASSIGN_OR_RETURN(v1::Rig rig, client::get_rig(program.daemon()));
   if (!rig.axis().is_virtual())

@@ -16,7 +16,7 @@ namespace hydroprint::cli {
                                                            const std::filesystem::path& folder);
 
 /// Summarizes a dip's record in one line: depth, speed, largest deviation from constant speed.
-/// Omits values that are missing from report.json.
+/// Values missing from report.json are omitted.
 [[nodiscard]] std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files);
 
 }  // namespace hydroprint::cli

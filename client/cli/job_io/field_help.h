@@ -5,8 +5,8 @@
 
 namespace hydroprint::cli {
 
-// These functions read the rules that the .proto files declare for the field behind a flag, for
-// example "SimulateSpec.dpi".
+// These functions read what the .proto files declare for the field behind a flag, for example
+// "SimulateSpec.dpi".
 
 /// Adds the field's range, choices and default to a help text: "Resolution (from 20 to 2400 dots
 /// per inch; default 300)".

@@ -11,7 +11,7 @@ namespace hydroprint::cli {
 /// Options for a job that a command has created.
 struct FinishOptions {
   std::string out;       ///< folder for its artifacts; empty: no download
-  bool no_wait = false;  ///< only print the job's name
+  bool no_wait = false;  ///< print its name and return
   WaitOptions wait;
 };
 

@@ -58,7 +58,7 @@ Result<std::vector<v1::InputFile>> Inputs::add_frames(
     }
     if (error || !std::filesystem::exists(folders[i] / "frames.json")) {
       return fail(Code::kNotFound, folders[i].string() +
-                                       ": contains no frames.json; use a folder written by "
+                                       ": contains no frames.json; give a folder written by "
                                        "hydroprint-capture or 'hydroprint capture'");
     }
     std::sort(files.begin(), files.end());

@@ -15,19 +15,19 @@ namespace hydroprint::cli {
 [[nodiscard]] Result<client::Uploaded> upload_shown(client::Connection& connection,
                                                     const std::filesystem::path& file);
 
-/// Uploads the files of a job and gives each a name that is unique within the job.
+/// Uploads the files of one job and gives each a name that is unique within the job.
 class Inputs {
  public:
   explicit Inputs(client::Connection& connection) : connection_(connection) {}
 
-  /// Adds the mesh and the files that it refers to, keeping their relative names. Prints notes
-  /// about references that cannot be sent to standard error.
+  /// Adds the mesh and the files it refers to, under the names it uses. Notes about references that
+  /// cannot be sent go to standard error.
   [[nodiscard]] Status add_model(const std::filesystem::path& mesh,
                                  google::protobuf::Message& spec);
 
-  /// Adds a file that is not referred to by other files.
+  /// Adds a file that no other file refers to.
   [[nodiscard]] Result<v1::InputFile> add(const std::filesystem::path& file);
-  /// Adds a file and stores it in a field of the spec. An empty path leaves the field unset.
+  /// Same, and sets a field of the spec to it. An empty path leaves the field unset.
   [[nodiscard]] Status add_to(google::protobuf::Message& spec, const std::string& field,
                               const std::filesystem::path& file);
 
@@ -35,7 +35,7 @@ class Inputs {
   [[nodiscard]] Result<std::vector<v1::InputFile>> add_frames(
       const std::vector<std::filesystem::path>& folders);
 
-  /// Sets the spec's film unless `film` is empty; uploads the file of a polygon.
+  /// Sets the spec's film, unless it is empty; uploads the file of a polygon.
   [[nodiscard]] Status add_film(const std::string& film, google::protobuf::Message& spec);
 
  private:

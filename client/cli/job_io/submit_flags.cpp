@@ -14,7 +14,7 @@ CLI::Option* add(CLI::App& command, const char* flag, SubmitOptions& options, co
   return add_field(command, flag, spec_of(options.job), field, help);
 }
 
-// Adds a flag for a file, which is uploaded after the command line is parsed.
+// Adds a flag for a file, which is uploaded after the parsing.
 CLI::Option* add_file(CLI::App& command, const char* flag, SubmitOptions& options,
                       const char* field, const char* help) {
   const auto take = [&options, field](const std::string& path) {
@@ -23,7 +23,7 @@ CLI::Option* add_file(CLI::App& command, const char* flag, SubmitOptions& option
   return command.add_option_function<std::string>(flag, take, help)->type_name("FILE");
 }
 
-// Adds a flag for the name of a job or calibration, which `name` completes.
+// Adds a flag for the name of a job or calibration, completed by `name`.
 CLI::Option* add_name(CLI::App& command, const char* flag, SubmitOptions& options,
                       const char* field, std::string (*name)(const std::string&),
                       const char* help) {
@@ -62,7 +62,7 @@ void add_dpi_flag(CLI::App& command, SubmitOptions& options) {
       ->type_name("DPI");
 }
 
-// Adds flags for an object and its pose over the film.
+// Flags for an object and its place over the film.
 void add_object_flags(CLI::App& command, SubmitOptions& options) {
   command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
       ->type_name("FILE");
@@ -103,7 +103,7 @@ void add_fit_flags(CLI::App& command, SubmitOptions& options) {
   add(command, "--drop-outliers", options, "drop_outliers", "Exclude outliers");
 }
 
-// Adds flags for the sources of colour of simulate, which may use a calibration.
+// Flags for the sources of colour of simulate, which may use a calibration.
 void add_simulate_flags(CLI::App& command, SubmitOptions& options) {
   add_file(command, "--texture", options, "texture",
            "The texture: PNG, JPEG or TIFF; default: the model's own materials");
@@ -144,7 +144,7 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
       ->type_name("SET");
 }
 
-// Adds --simulate-job, which replaces the flags that the simulation determines.
+// Adds --simulate-job, which replaces flags that the simulation already determines.
 void add_simulate_job_flag(CLI::App& command, SubmitOptions& options, const std::string& file,
                            const std::vector<std::string>& taken, const char* help) {
   auto* job = add_name(command, "--simulate-job", options, "simulate_job", job_name, help)
@@ -172,7 +172,7 @@ void add_page_flags(CLI::App& command, SubmitOptions& options) {
   add_threads_flag(command, options);
 }
 
-// Adds flags for the contents of the pages of print-image.
+// Flags for the contents of the pages of print-image.
 void add_layout_flags(CLI::App& command, SubmitOptions& options) {
   add(command, "--bar-mm", options, "bar_mm",
       field_help("PrintImageSpec.bar_mm", "Length of the bars that hold the film"))

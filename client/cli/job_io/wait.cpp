@@ -88,7 +88,7 @@ Error why(const v1::Job& job) {
     why = {Code::kCancelled, job.name() + " was cancelled", {}};
   if (job.state() == v1::Job::INTERRUPTED)
     why = {Code::kInternal, job.name() + " was interrupted: " + interruption(job), {}};
-  // For a dip that ended early, the instruction explains what to do with film and object.
+  // A dip that ended early explains what to do with film and object.
   const std::string& advice = job.dip_status().instruction();
   if (why.message.find(advice) == std::string::npos) why.message += "; " + advice;
   return why;

@@ -14,25 +14,25 @@ namespace hydroprint::cli {
 /// Options for waiting for a job.
 struct WaitOptions {
   bool cancel_on_interrupt = false;  ///< Ctrl-C cancels the job; otherwise the job continues
-  bool json_lines = false;           ///< print every update as a line of JSON on standard output
-  int descriptor = 2;  ///< descriptor for the progress display, used without json_lines
+  bool json_lines = false;           ///< every update as a line of JSON on standard output
+  int descriptor = 2;                ///< destination of the display otherwise
 };
 
 /// Adds --cancel-on-interrupt.
 void add_wait_flags(CLI::App& command, WaitOptions& options);
 
-/// Waits until a job is finished.
-/// @return the job if it succeeded; kInvalidArgument if it failed because of its input, kInternal
-///         if it failed otherwise, kCancelled if it was cancelled or on Ctrl-C
+/// Waits until a job is finished. @return the job if it succeeded; kInvalidArgument if it failed
+/// because of its input, kInternal if it failed otherwise, kCancelled if it was cancelled or on
+/// Ctrl-C
 [[nodiscard]] Result<v1::Job> wait_for(Program& program, const std::string& job,
                                        const WaitOptions& options);
 
-/// Waits until a job is finished and shows its progress.
-/// @return the finished job, successful or not; kCancelled on Ctrl-C
+/// Waits until a job is finished and shows its progress. @return the finished job, successful or
+/// not; kCancelled on Ctrl-C
 [[nodiscard]] Result<v1::Job> follow_job(Program& program, const std::string& job,
                                          const WaitOptions& options);
 
-/// Explains why a finished job did not succeed; for a dip, also how to handle film and object.
+/// Explains why a finished job did not succeed; for a dip, also what to do with film and object.
 [[nodiscard]] Error why(const v1::Job& job);
 
 /// A downloaded file.
