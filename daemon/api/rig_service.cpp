@@ -141,7 +141,7 @@ class RigService final
                     const Action& action, v1::Rig* reply) {
     if (const Status good = check_fields(request); !good) return to_grpc(good);
     if (request.request_id().empty()) return action();
-    const std::lock_guard lock(once_mutex_);  // the same request may arrive twice at once
+    const std::lock_guard lock(once_mutex_);  // the same request may arrive twice in parallel
     const RequestKey key = request_key(method, request);
     const auto owner = owner_of(context);
     if (!owner) return to_grpc(owner.error());

@@ -22,14 +22,14 @@ struct Config {
   std::string server_tls_key;                    ///< server.tls_key: file; empty: no TLS
   std::string server_web_dir;                    ///< server.web_dir; empty: as installed
   std::string store_state_dir;                   ///< store.state_dir; empty: the user's default
-  std::int64_t store_keep_finished_days = 30;    ///< store.keep_finished_days; 0: for ever
-  std::int64_t store_keep_dips_days = 365;       ///< store.keep_dips_days; 0: for ever
+  std::int64_t store_keep_finished_days = 30;    ///< store.keep_finished_days; 0: forever
+  std::int64_t store_keep_dips_days = 365;       ///< store.keep_dips_days; 0: forever
   std::int64_t store_max_mib_per_owner = 20480;  ///< store.max_mib_per_owner; 0: no limit
   std::int64_t store_min_free_mib = 512;         ///< store.min_free_mib
   std::int64_t assets_max_mib = 1024;            ///< assets.max_mib, per file
   std::int64_t assets_max_open_uploads = 64;     ///< assets.max_open_uploads
   std::int64_t assets_upload_expires_h = 24;     ///< assets.upload_expires_h
-  std::int64_t assets_keep_unused_days = 30;     ///< assets.keep_unused_days; 0: for ever
+  std::int64_t assets_keep_unused_days = 30;     ///< assets.keep_unused_days; 0: forever
   std::int64_t queue_max_jobs = 1000;            ///< queue.max_jobs
   std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
   std::string workers_program;                   ///< workers.program; empty: next to hydroprintd

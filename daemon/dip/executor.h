@@ -27,7 +27,7 @@ class DipExecutor final : public JobExecutor {
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   /// See DipSession::confirm. After the end of a dip, only completed steps can be confirmed again.
   [[nodiscard]] Result<Job> confirm(std::int64_t job, dip::Step step, const std::string& holder);
-  /// Stops the motion of a dip at once; the dip ends as CANCELLED.
+  /// Stops the motion of a dip immediately; the dip ends as CANCELLED.
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
   /// Ends an open dip as INTERRUPTED and waits until the axis is at rest.
   void stop() override;

@@ -289,7 +289,7 @@ void DipSession::look_at_rest() {
 bool DipSession::step() {
   look();
   dip::Step before;
-  do {  // actions without a wait follow at once
+  do {  // actions without a wait follow immediately
     before = stand_.step;
     if (const Status done = feed({Event::Kind::kTick}); !done) {
       fail_for(done.error());

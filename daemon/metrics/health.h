@@ -14,8 +14,8 @@ struct HealthReport {
   std::string json;
 };
 
-/// Creates the health report. Reads the store, so it may take time. A missing or faulty rig or
-/// camera is reported but does not make the daemon unhealthy.
+/// Creates the health report. Reads the store, so it may take time. Faults of the rig and the
+/// camera are reported, but do not make the daemon unhealthy.
 [[nodiscard]] HealthReport health_report(const ServiceContext& backend);
 
 /// Returns all metrics except the HTTP server's, in Prometheus format. Reads the store.

@@ -5,8 +5,8 @@
 
 namespace hydroprint::daemon {
 
-/// Returns the rig as an API message, whether or not a drive responds or is configured. Never
-/// waits.
+/// Returns the rig as an API message, also if the drive does not respond or none is configured.
+/// Never waits.
 [[nodiscard]] v1::Rig rig_message(const RigGateway& gateway);
 
 /// Returns whether two messages differ only in the time of the last poll.

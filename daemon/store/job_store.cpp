@@ -129,7 +129,7 @@ Result<std::optional<Job>> JobStore::repeated(const std::string& owner, const Re
   return std::optional(std::move(job));
 }
 
-// Gives a job the artifacts of a finished job with the same inputs, if there is one.
+// Reuses the artifacts of a finished job with the same inputs, if there is one.
 Result<bool> JobStore::adopt_cached(const Job& job) {
   if (!job.definition.use_cache) return false;
   HP_ASSIGN_OR_RETURN(

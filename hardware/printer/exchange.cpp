@@ -66,7 +66,8 @@ class Connection {
     const double wait_s = std::chrono::duration<double>(timing_.answer).count();
     httpSetTimeout(http_.get(), wait_s, give_up, &timed_out_);
     Deadline deadline(httpGetFd(http_.get()), timing_.whole, gives_up_);
-    // A printer that refuses may send its reason and hang up before it has received everything.
+    // A printer that rejects a request may respond and disconnect before it has received
+    // everything.
     const bool is_sent = send(request, document);
     Ipp reply(ippNew());
     http_status_t status = HTTP_STATUS_CONTINUE;

@@ -45,7 +45,7 @@ Result<toml::table> read_toml_file(const std::filesystem::path& path) {
 struct TomlReader::Shared {
   std::filesystem::path path;
   toml::table root;
-  toml::table none;  // stands for a missing table
+  toml::table none;  // represents a missing table
   std::optional<Error> error;
   std::map<const toml::table*, std::set<std::string, std::less<>>> used_keys;
 };

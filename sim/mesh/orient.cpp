@@ -17,7 +17,7 @@ struct Patch {
   double volume = 0;
   bool closed = true;
   bool flat = false;    ///< negligible volume
-  bool turned = false;  ///< turned over as a whole
+  bool turned = false;  ///< flipped as a whole
   Eigen::AlignedBox3d box;
 };
 

@@ -115,7 +115,6 @@ Strokes cross(const Vector2d& at_mm) {
 }
 
 /// Returns the text beside the drawing. Adding 0.0 turns -0 into 0.
-
 std::vector<std::string> lines_of(const Placement& placement, const PageSettings& settings) {
   const Eigen::Quaterniond q(placement.X_FO.linear());
   const Eigen::Vector3d& t = placement.X_FO.translation();

@@ -33,7 +33,7 @@ struct Print {
   Warnings warnings;       ///< marks_dropped, image_in_printer_margin
 };
 
-/// Reads a film image written by `simulate`, or any PNG, JPEG or TIFF, as 8-bit sRGB with
+/// Reads a film image (written by `simulate`, or any PNG, JPEG or TIFF) as 8-bit sRGB with
 /// transparency composited over white. Returns the errors of image::read_image().
 [[nodiscard]] Result<image::RgbImage> read_film_image(const std::filesystem::path& path,
                                                       const Context& context);

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Film compressed or stretched more than this has wrinkled or torn, and the sheet model is
-/// invalid.
+/// Limit of the area ratio in both directions. Beyond it, film has wrinkled (if compressed) or torn
+/// (if stretched), and the sheet model is not valid.
 constexpr double kMostAreaRatio = 5;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }

@@ -16,8 +16,8 @@ using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>&
 /// Computes the thickness of the floating film on each triangle of the film mesh of waterline `k`,
 /// from the conservation of volume (section 4.3): h = h0 A0 / A. A0 is the rest area of the
 /// material in the triangle, found by tracing the triangle's nodes back through the dip. Thickness
-/// thus moves with the material and is never interpolated from mesh to mesh.
-/// Area ratios are limited to five, because film stretched or compressed further has torn or
+/// thus moves with the material and is never interpolated from mesh to mesh. Area ratios are
+/// limited to five, because film stretched further has torn, and film compressed further has
 /// wrinkled.
 /// @param known  rest positions of the film at an earlier waterline; nullptr: traced all the way
 ///               back

@@ -17,7 +17,7 @@ using hydroprint::testing::Terminal;
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-// Small and fast, with timers long enough to be seen.
+// A small and fast dip, with timers long enough to be observed.
 const Arguments kSmall{"--speed",        "10", "--hold-s",           "0", "--soak-s", "1",
                        "--clearance-mm", "3",  "--activator-wait-s", "1", "--out"};
 

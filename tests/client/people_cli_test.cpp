@@ -20,7 +20,7 @@ TEST_F(PeopleCli, LoginStoresAKeyThatEveryCommandUses) {
   EXPECT_EQ(content(credentials()).find(kPassword), std::string::npos);
   EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
   EXPECT_EQ(client({"list"}).status, 0);
-  // login leaves no session behind
+  // login ends its session
   EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());
 }
 

@@ -1,4 +1,4 @@
-// The output of --json is what REST answers.
+// The output of --json equals the responses of the REST API.
 #include "tests/client/people_cli.h"
 #include "tests/daemon/http/http_client.h"
 

@@ -1,4 +1,4 @@
-// The head of an upload or a download gives the same result however its bytes are split into
+// The head of an upload or a download yields the same result however its bytes are split into
 // pieces: the same request with usable headers, or an error.
 #include <algorithm>
 #include <optional>

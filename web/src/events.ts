@@ -90,7 +90,7 @@ function checkSilence(): void {
 
 if (typeof window !== 'undefined') {
   window.setInterval(checkSilence, 3000);
-  // When a phone wakes up or the network returns, reconnect at once instead of waiting for the timer.
+  // When a phone wakes up or the network returns, reconnect immediately instead of waiting for the timer.
   window.addEventListener('online', () => source && connect());
   document.addEventListener('visibilitychange', () => source && link.value === 'lost' && connect());
 }

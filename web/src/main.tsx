@@ -5,7 +5,7 @@ import { complain } from './state/notices';
 import './theme';
 import './style.css';
 
-/** A one-time link is "/sign-in#TOKEN". The token is removed from the address bar at once. */
+/** A one-time link is "/sign-in#TOKEN". The token is removed from the address bar immediately. */
 async function start(): Promise<void> {
   const token = location.pathname === '/sign-in' ? location.hash.slice(1) : '';
   if (location.pathname !== '/') history.replaceState(null, '', '/');

@@ -16,7 +16,7 @@ struct HeaderField {
 class HeaderFields {
  public:
   /// Sets a field of a response, replacing fields with that name. Returns false and changes nothing
-  /// if name or value contains CR, LF or NUL, or if the name is not a token.
+  /// if the name is not a token, or if name or value contains CR, LF or NUL.
   bool set(std::string_view name, std::string_view value);
   /// Adds a received field; names may repeat.
   void add(std::string name, std::string value);

@@ -23,7 +23,7 @@ struct Response {
 
 /// How the end of a response's body is marked.
 struct Framing {
-  /// Nullopt: chunked, or until the connection closes for HTTP/1.0.
+  /// nullopt: chunked, or until the connection closes for HTTP/1.0.
   std::optional<std::uint64_t> length;
   bool keeps_alive = true;
   bool is_secure = false;  ///< over TLS: instructs browsers to use only TLS afterwards

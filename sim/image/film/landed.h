@@ -18,7 +18,7 @@ namespace hydroprint::image {
 [[nodiscard]] std::vector<Eigen::Vector3f> landed_colours(const flow::SurfaceMap& map,
                                                           const FilmTexture& film);
 
-/// 8-bit sRGB and opacity (0 or 255), row 0 on top.
+/// 8-bit sRGB and opacity (0 or 255), row 0 at the top.
 struct RgbaImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;

@@ -12,8 +12,8 @@
 
 namespace hydroprint::image {
 
-/// An image for a printer: 8-bit samples, row 0 on top, without padding; 3 per pixel (R G B) or 4
-/// (C M Y K, 255 is full ink).
+/// An image for a printer: 8-bit samples, row 0 at the top, without padding; 3 per pixel (R G B) or
+/// 4 (C M Y K, 255 is full ink).
 struct PrinterImage {
   int width = 0, height = 0, channels = 3;
   std::vector<std::uint8_t> samples;

@@ -9,7 +9,7 @@ namespace hydroprint::image {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-/// 8-bit sRGB, row 0 on top, pixels R G B without padding.
+/// 8-bit sRGB, row 0 at the top, pixels R G B without padding.
 struct RgbImage {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;

@@ -44,7 +44,7 @@ class CalibrateApi : public CameraTest {
     EXPECT_EQ(all().front().job(), job.name());
     return all().front();
   }
-  /// Same, with the rig homed and the axis at the capture position.
+  /// Same as above, with the rig homed and the axis at the capture position.
   v1::Calibration calibrated() {
     ann->make_ready();
     ann->go_to(kAxis_mm);

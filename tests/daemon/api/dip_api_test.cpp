@@ -397,7 +397,7 @@ TEST_F(DipApi, KillDuringTheDescentStopsTheRigAndInterruptsTheDip) {
   EXPECT_EQ(again.wait_for_end(again.dip(spec).name()).state(), v1::Job::SUCCEEDED);
 }
 
-/// Holds the write lock of a daemon's store, as if its disk hung.
+/// Holds the write lock of a daemon's store, as if its disk did not respond.
 class HeldStore {
  public:
   explicit HeldStore(const std::filesystem::path& database) {

@@ -243,7 +243,7 @@ void Campaign::expect_obeyed(const grpc::Status& sent) {
   std::cout << "not as planned: " << reason_of(sent) << ": " << sent.error_message() << std::endl;
 }
 
-/// Gives the order, then keeps calling until the daemon is gone.
+/// Sends the command, then keeps calling until the daemon is gone.
 void Campaign::keep_busy(const Plan& plan) {
   client_->patient = false;
   v1::Job job;

@@ -268,7 +268,7 @@ TEST_F(RigApi, JogStopsWithin500msOfTheLastCall) {
   }
   EXPECT_NEAR(rig.speed_mm_per_s(), 5, 0.01);
   const double last_s = rig.now_s();
-  ASSERT_TRUE(ann.jog(5).ok());  // from here on the client is gone, as if killed
+  ASSERT_TRUE(ann.jog(5).ok());  // after this the client is gone, as if killed
   EXPECT_LT(rig.rested_s() - last_s, 0.5);
 }
 

@@ -35,7 +35,7 @@ class HttpTest : public ::testing::Test {
 /// the daemon does not make configurable. The parameter selects TLS.
 class HttpLimits : public HttpTest, public ::testing::WithParamInterface<bool> {
  protected:
-  /// Restarts the server; over TLS if the parameter says so.
+  /// Restarts the server, with TLS if the parameter is true.
   void serve(const http::Limits& limits);
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] HttpConnection connect(int receive_buffer_bytes = 0) const {

@@ -153,7 +153,7 @@ class Drawn {
     return text + (has_verb ? ":v" : "");
   }
 
-  // Same, with a regular expression, which knows nothing of segments.
+  // Computes the same with a regular expression, without splitting into segments.
   [[nodiscard]] std::optional<Values> expected(const std::string& path) const {
     const auto found = regex_->groups(path);
     if (!found) return std::nullopt;

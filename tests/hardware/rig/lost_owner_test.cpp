@@ -1,4 +1,4 @@
-// The owner of the drive dies or hangs during a dip: the drive must stop by itself.
+// If the owner of the drive dies or hangs during a dip, the drive must stop without it.
 #include <gtest/gtest.h>
 
 #include <csignal>

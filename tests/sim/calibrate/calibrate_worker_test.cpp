@@ -29,7 +29,7 @@ TEST_F(Calibrate, NamesAHiddenMarker) {
 
 TEST_F(Calibrate, WarnsOfAnUncalibratedCamera) {
   take_frames(4);
-  // With the driver's lens the markers may disagree; then the error says so.
+  // With the driver's lens the markers may disagree, which the error then states.
   const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
   const json out = json::parse(ended.out);
   if (ended.status != 0) {

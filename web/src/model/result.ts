@@ -1,4 +1,4 @@
-/** An error for people to read: what happened, and how to fix it. */
+/** An error for display: what happened, and how to fix it. */
 export interface Failure {
   what: string;
   remedy?: string;

@@ -1,4 +1,4 @@
-/** Formats numbers for people, always with a unit. */
+/** Formats numbers for display, always with a unit. */
 import { done, refused, type Result } from './result';
 
 export const formatMm = (value: number, digits = 1): string => `${value.toFixed(digits)} mm`;

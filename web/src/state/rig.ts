@@ -44,7 +44,7 @@ effect(() => {
 
 const kTries = 5;
 
-/** Stops any motion. Retries at once if the request fails. */
+/** Stops any motion. Retries immediately if the request fails. */
 export async function stop(): Promise<void> {
   stopState.value = 'sending';
   for (let i = 0; i < kTries; i += 1) {

@@ -1,4 +1,4 @@
-// A late reply is never taken for the reply to another request.
+// A late reply is never mistaken for the reply to another request.
 #include <thread>
 
 #include "tests/hardware/simulator/drive/bench_rig.h"
@@ -45,7 +45,7 @@ TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
   }
 }
 
-// The second line of defence, for a drive that is slower than its profile says.
+// The second line of defence, for a drive that is slower than stated in its profile.
 TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   BenchRig bench("rtu");
   const auto link = std::make_shared<drive::Link>(
