@@ -146,7 +146,8 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
   const std::string size = fmt::format("{} x {} pixels", width, height);
   if (width < 1 || height < 1) {
     return fail(Code::kDataLoss,
-                fmt::format("{}, header: impossible size, {}. Download or export the file again", name, size));
+                fmt::format("{}, header: impossible size, {}. Download or export the file again",
+                            name, size));
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
     return fail(
