@@ -19,12 +19,6 @@ Json json_of(const testing::Errors& errors) {
           {"missing", errors.missing}};
 }
 
-Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
-}
-
 void give_up(const Error& error) {
   std::fprintf(stderr, "%s\n", error.message.c_str());
   std::exit(1);

@@ -4,23 +4,21 @@
 #include <string>
 #include <utility>
 
-#include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "tests/support/sphere_dips.h"
+#include "tests/support/two_threads.h"
 
 /// Common code of the benchmark programs. Each program measures some of the rows of tests/bench/run
 /// and writes one JSON object per line to stdout: {"row": NAME, FIGURE: VALUE, ...}.
 namespace hydroprint::bench {
 
 using Json = nlohmann::ordered_json;
+using testing::two_threads;
 
 void print(const std::string& row, Json figures);
 
 /// Root mean square, maximum, number of points, and number of points without film.
 [[nodiscard]] Json json_of(const testing::Errors& errors);
-
-/// A context with two threads.
-[[nodiscard]] Context two_threads();
 
 /// Prints the error and exits with status 1.
 [[noreturn]] void give_up(const Error& error);

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -25,11 +24,6 @@ using Arguments = std::vector<std::string>;
 using nlohmann::json;
 
 constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Joins the lines of a text.
 std::string flowing(const std::string& text) {
@@ -123,8 +117,8 @@ TEST_F(Cli, SubmitUploadsTheModelsFilesWaitsAndDownloads) {
   ASSERT_EQ(job.at("simulate").at("extraFiles").size(), 2U);
   EXPECT_EQ(job["simulate"]["extraFiles"][0]["name"], "m.mtl");
   EXPECT_EQ(job["simulate"]["extraFiles"][1]["name"], "skin.png");
-  EXPECT_NE(content_of(out() / "film.png").find("film of"), std::string::npos);
-  const json given = given_spec(content_of(out() / "report.json"));
+  EXPECT_NE(content(out() / "film.png").find("film of"), std::string::npos);
+  const json given = given_spec(content(out() / "report.json"));
   EXPECT_EQ(given.at("dpi"), 120);
   EXPECT_EQ(given.at("depthMm"), 30);
   EXPECT_EQ(job.at("files").size(), 2U);
@@ -167,7 +161,7 @@ TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
     expect_error(stokes, 3, verb + ".inertia: ");
     flags.insert(flags.end(), {"--out", out().string()});
     EXPECT_EQ(client_json(flags).at(verb).at("inertia"), true);
-    EXPECT_EQ(given_spec(content_of(out() / "report.json")).at("inertia"), true);
+    EXPECT_EQ(given_spec(content(out() / "report.json")).at("inertia"), true);
   }
   const json without = client_json({"submit", "simulate", "--mesh", mesh("sleep 0.1")});
   EXPECT_EQ(without.at("simulate").at("inertia"), false);
@@ -184,7 +178,7 @@ TEST_F(Cli, FitUsesTheMeasuredPoints) {
   EXPECT_EQ(spec.at("points").at("name"), "measured.csv");
   EXPECT_EQ(spec.at("free"), (json{"drag", "swelling"}));
   EXPECT_EQ(spec.at("dropOutliers"), true);
-  const json given = given_spec(content_of(out() / "report.json"));
+  const json given = given_spec(content(out() / "report.json"));
   EXPECT_EQ(given.at("points").at("name"), "measured.csv");
   EXPECT_EQ(given.at("free"), (json{"drag", "swelling"}));
   EXPECT_EQ(given.at("dropOutliers"), true);
@@ -201,7 +195,7 @@ TEST_F(Cli, ValidateNeedsNoFiles) {
   EXPECT_EQ(job.at("validate"),
             (json{{"only", {"repeatability", "bowl"}}, {"quick", true}, {"threads", 2}}));
   EXPECT_FALSE(job.contains("mesh"));
-  const json given = given_spec(content_of(out() / "report.json"));
+  const json given = given_spec(content(out() / "report.json"));
   EXPECT_EQ(given.at("only"), (json{"repeatability", "bowl"}));
   EXPECT_EQ(given.at("quick"), true);
 }
@@ -218,7 +212,7 @@ TEST_F(Cli, PrintImageUsesTheFilmImageAndThePaper) {
   EXPECT_EQ(spec.at("iccProfile").at("name"), "p.icc");
   EXPECT_EQ(spec.at("formats"), (json{"pdf", "tiff"}));
   EXPECT_FALSE(spec.contains("mesh"));
-  const json given = given_spec(content_of(out() / "spec.json"));
+  const json given = given_spec(content(out() / "spec.json"));
   EXPECT_EQ(given.at("paper"), "A3");
   EXPECT_EQ(given.at("jobName"), "mug 7");
 }
@@ -459,7 +453,7 @@ class CliDownload : public Cli {
   Outcome download() const {
     return client({"download", job_, "film.png", "--out", out().string()});
   }
-  std::string sha256_of_film() const { return hash_of(content_of(out() / "film.png")); }
+  std::string sha256_of_film() const { return hash_of(content(out() / "film.png")); }
 
   std::string job_;
   std::string sha256_;
@@ -537,7 +531,7 @@ TEST_F(Cli, PythonExampleFetchesTheFilm) {
        PYTHON_EXAMPLE, "--server", daemon_->address(), "--mesh", mesh("sleep 0.2"), "--out",
        out().string()});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(content_of(out() / "film.png").find("film of"), std::string::npos);
+  EXPECT_NE(content(out() / "film.png").find("film of"), std::string::npos);
 }
 
 TEST_F(Cli, SampleRefusesAnUnknownKind) { expect_error({"sample", "teapot"}, 2, "globe"); }
@@ -553,33 +547,33 @@ TEST_F(Cli, TheGlobeIsSimulatedAndPrinted) {
                                 "50", "--out", out().string()});
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* picture : {"film.png", "stretch.png", "predicted.png"})
-    EXPECT_TRUE(content_of(out() / picture).starts_with("\x89PNG")) << picture;
+    EXPECT_TRUE(content(out() / picture).starts_with("\x89PNG")) << picture;
   const std::string paper = (folder_.path() / "paper").string();
   const json printed = client_json(
       {"submit", "print-image", "--simulate-job", "1", "--job-name", "globe 1", "--out", paper});
   EXPECT_EQ(printed.at("printImage").at("simulateJob"), "jobs/1");
-  const std::string pdf = content_of(paper + "/print.pdf");
+  const std::string pdf = content(paper + "/print.pdf");
   EXPECT_TRUE(pdf.starts_with("%PDF"));
   // A reprint, computed again; and from the file, by hand.
   ASSERT_EQ(client({"retry", "2"}).status, 0);
   ASSERT_EQ(client({"watch", "3"}).status, 0);
   ASSERT_EQ(client({"download", "3", "print.pdf", "--out", paper + "/again"}).status, 0);
-  EXPECT_TRUE(content_of(paper + "/again/print.pdf") == pdf);
+  EXPECT_TRUE(content(paper + "/again/print.pdf") == pdf);
   const Outcome by_hand =
       client({"submit", "print-image", "--film-image", (out() / "film.png").string(), "--dpi", "50",
               "--job-name", "globe 1", "--out", paper + "/hand"});
   ASSERT_EQ(by_hand.status, 0) << by_hand.err;
-  EXPECT_TRUE(content_of(paper + "/hand/print.pdf") == pdf);
+  EXPECT_TRUE(content(paper + "/hand/print.pdf") == pdf);
   const Outcome placed =
       client({"submit", "template", "--simulate-job", "1", "--out", paper + "/where"});
   ASSERT_EQ(placed.status, 0) << placed.err;
-  EXPECT_TRUE(content_of(paper + "/where/placement.pdf").starts_with("%PDF"));
+  EXPECT_TRUE(content(paper + "/where/placement.pdf").starts_with("%PDF"));
   // Prints on paper.
   const Outcome sent = client({"print", "2", "--out", paper + "/record"});
   ASSERT_EQ(sent.status, 0) << sent.err;
   EXPECT_NE(sent.err.find("completed"), std::string::npos) << sent.err;
-  EXPECT_TRUE(content_of(there.spooled()) == pdf);
-  EXPECT_EQ(json::parse(content_of(paper + "/record/report.json")).at("outcome"), "SUCCEEDED");
+  EXPECT_TRUE(content(there.spooled()) == pdf);
+  EXPECT_EQ(json::parse(content(paper + "/record/report.json")).at("outcome"), "SUCCEEDED");
 }
 
 TEST_F(Cli, PreviewRespondsWithoutAJob) {

@@ -50,12 +50,6 @@ mesh::Model model_of(const simulated_scene::Mesh& mesh) {
 
 }  // namespace
 
-Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
-}
-
 scan::Lens lens_of(const simulated_camera::Lens& lens) {
   scan::Lens out;
   out.fx_px = out.fy_px = lens.focal_px;

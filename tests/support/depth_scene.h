@@ -7,20 +7,17 @@
 #include "hardware/simulator/camera/lens.h"
 #include "hardware/simulator/camera/sensor.h"
 #include "hardware/simulator/scene/scenery.h"
-#include "sim/base/context.h"
 #include "sim/base/pose.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
 #include "sim/registration/film_frame/markers.h"
 #include "sim/scan/frame.h"
 #include "sim/scan/lens.h"
+#include "tests/support/two_threads.h"
 
 /// Depth frames of known scenes, rendered by the virtual camera. They give tests of scans a known
 /// ground truth.
 namespace hydroprint::testing {
-
-/// A context with two threads.
-[[nodiscard]] Context two_threads();
 
 /// Converts a lens of the virtual camera to one for scans.
 [[nodiscard]] scan::Lens lens_of(const simulated_camera::Lens& lens);

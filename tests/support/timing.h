@@ -21,12 +21,13 @@ double seconds_of(const Call& call) {
   return seconds_since(start);
 }
 
-/// Polls every few ms; false if `until` did not become true in time.
-[[nodiscard]] inline bool wait_until(const std::function<bool()>& until, double seconds = 10) {
+/// Polls; false if `until` did not become true in time.
+[[nodiscard]] inline bool wait_until(const std::function<bool()>& until, double seconds = 10,
+                                     double poll_every_s = 0.005) {
   const auto start = Clock::now();
   while (!until()) {
     if (seconds_since(start) > seconds) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    std::this_thread::sleep_for(std::chrono::duration<double>(poll_every_s));
   }
   return true;
 }

@@ -1,17 +1,13 @@
 #include "tests/daemon/api/support.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <stdexcept>
-#include <thread>
 
 #include "google/rpc/status.pb.h"
 #include "sim/base/sha256.h"
@@ -19,11 +15,7 @@
 namespace hydroprint::tests {
 namespace {
 
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
-const std::string kDaemon = std::string(HYDROPRINT_BIN_DIR) + "/hydroprintd";
-constexpr seconds kPatience{120};  // a real computation may take a minute on a busy machine
+constexpr int kPatience_s = 120;  // a real computation may take a minute on a busy machine
 
 void check(const grpc::Status& status, const char* call) {
   if (status.ok()) return;
@@ -31,31 +23,11 @@ void check(const grpc::Status& status, const char* call) {
                            status.error_message());
 }
 
-// Starts hydroprintd with stdout and stderr in files of this folder.
-pid_t spawn_daemon(const std::vector<std::string>& arguments, const std::filesystem::path& out,
-                   const std::filesystem::path& err) {
-  std::vector<std::string> strings = arguments;
-  strings.insert(strings.begin(), kDaemon);
-  std::vector<char*> argv;
-  for (std::string& text : strings) argv.push_back(text.data());
-  argv.push_back(nullptr);
+std::vector<std::string> command(std::vector<std::string> arguments) {
   // The leak checker needs ptrace, which workers may not use.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, kDaemon.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error(kDaemon + " cannot be started");
-  return pid;
-}
-
-int wait_for_exit(pid_t pid) {
-  int status = 0;
-  ::waitpid(pid, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  arguments.insert(arguments.begin(), HYDROPRINT_BIN_DIR "/hydroprintd");
+  return arguments;
 }
 
 }  // namespace
@@ -70,11 +42,8 @@ Ended run_daemon(std::vector<std::string> arguments) {
   if (std::find(arguments.begin(), arguments.end(), "--http") == arguments.end()) {
     arguments.insert(arguments.end(), {"--http", "127.0.0.1:0"});
   }
-  const TemporaryFolder folder;
-  const auto out = folder.path() / "out", err = folder.path() / "err";
-  const pid_t pid = spawn_daemon(arguments, out, err);
-  const int status = wait_for_exit(pid);
-  return {status, content(out) + content(err)};
+  const testing::Ended ended = testing::run(command(arguments));
+  return {ended.status, ended.out + ended.err};
 }
 
 nlohmann::json given_spec(const std::string& report) {
@@ -115,46 +84,39 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options option
 }
 
 DaemonProcess::~DaemonProcess() {
-  if (pid_ > 0) kill();
+  process_.reset();
   if (::testing::Test::HasFailure()) std::cerr << content(folder_ / "err");
 }
 
 void DaemonProcess::start() {
-  const auto out = folder_ / "out";
-  std::filesystem::remove(out);
   std::vector<std::string> arguments = options_.arguments;
   arguments.insert(arguments.end(),
                    {"--config", config().string(), "--state-dir", state().string(), "--grpc",
                     options_.host + ":0", "--http", options_.host + ":0"});
-  pid_ = spawn_daemon(arguments, out, folder_ / "err");
-  const auto deadline = Clock::now() + kPatience;
+  testing::ProcessOptions options;
+  options.files = {{STDERR_FILENO, folder_ / "err"}};
+  process_.emplace(command(arguments), options);
   const auto named = [](const std::string& words, const std::string& name) {
     const std::size_t from = words.find(" " + name + "=") + name.size() + 2;
     return words.substr(from, words.find(' ', from) - from);
   };
-  while (Clock::now() < deadline) {
-    const std::string words = content(out);
-    if (words.find(" ready ") != std::string::npos && words.ends_with('\n')) {
-      address_ = named(words, "grpc");
-      http_ = named(words, "http");
-      return;
-    }
-    std::this_thread::sleep_for(milliseconds(10));
+  std::string words;
+  const auto is_ready = [&] {
+    words = process_->out();
+    return words.find(" ready ") != std::string::npos && words.ends_with('\n');
+  };
+  if (!wait_until(is_ready, kPatience_s)) {
+    throw std::runtime_error("hydroprintd did not get ready: " + log());
   }
-  throw std::runtime_error("hydroprintd did not get ready: " + content(folder_ / "err"));
+  address_ = named(words, "grpc");
+  http_ = named(words, "http");
 }
 
-void DaemonProcess::kill() {
-  ::kill(pid_, SIGKILL);
-  wait_for_exit(pid_);
-  pid_ = -1;
-}
+void DaemonProcess::kill() { process_.reset(); }
 
 int DaemonProcess::terminate() {
-  ::kill(pid_, SIGTERM);
-  const int status = wait_for_exit(pid_);
-  pid_ = -1;
-  return status;
+  process_->signal(SIGTERM);
+  return process_->wait().status;
 }
 
 std::string DaemonProcess::log() const { return content(folder_ / "err"); }
@@ -162,7 +124,7 @@ std::string DaemonProcess::log() const { return content(folder_ / "err"); }
 std::vector<pid_t> DaemonProcess::workers() const {
   std::vector<pid_t> out;
   for (const auto& entry :
-       std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task")) {
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid()) + "/task")) {
     std::ifstream children(entry.path() / "children");
     for (pid_t child = 0; children >> child;) out.push_back(child);
   }
@@ -185,7 +147,7 @@ Client::Client(const std::string& address, const std::string& owner, const std::
 
 std::unique_ptr<grpc::ClientContext> Client::context() const {
   auto context = std::make_unique<grpc::ClientContext>();
-  context->set_deadline(std::chrono::system_clock::now() + kPatience);
+  context->set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(kPatience_s));
   context->set_wait_for_ready(patient);
   if (!owner_.empty()) context->AddMetadata("hydroprint-owner", owner_);
   if (!key.empty()) context->AddMetadata("authorization", "Bearer " + key);
@@ -244,15 +206,15 @@ v1::Job Client::cancel(const std::string& name) {
 }
 
 v1::Job Client::wait(const std::string& name, const std::function<bool(const v1::Job&)>& until) {
-  const auto deadline = Clock::now() + kPatience;
-  for (;;) {
-    const v1::Job now = job(name);
-    if (until(now)) return now;
-    if (Clock::now() > deadline) {
-      throw std::runtime_error("waited too long: " + now.ShortDebugString());
-    }
-    std::this_thread::sleep_for(milliseconds(20));
+  v1::Job now;
+  const auto is_so = [&] {
+    now = job(name);
+    return until(now);
+  };
+  if (!wait_until(is_so, kPatience_s, 0.02)) {
+    throw std::runtime_error("waited too long: " + now.ShortDebugString());
   }
+  return now;
 }
 
 v1::Job Client::wait_for(const std::string& name, v1::Job::State state) {

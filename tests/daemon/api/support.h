@@ -1,7 +1,6 @@
 #pragma once
 
 #include <grpcpp/grpcpp.h>
-#include <sys/types.h>
 
 #include <filesystem>
 #include <functional>
@@ -18,8 +17,7 @@
 #include "hydroprint/v1/people_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "tests/support/content.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/timing.h"
+#include "tests/support/process.h"
 
 namespace hydroprint::tests {
 
@@ -39,9 +37,9 @@ constexpr const char* kNeedsProc = "/proc is not mounted: the daemon's workers c
 /// Message for skipping a test without it.
 constexpr const char* kNeedsRealWorker = "hydroprint-worker is not built";
 
-/// Exit status and output of a program.
+/// Exit status and output of a daemon.
 struct Ended {
-  int status = -1;    ///< exit status; -signal if killed
+  int status = -1;    ///< exit status; -1 if killed
   std::string words;  ///< stdout and stderr
 };
 
@@ -86,7 +84,7 @@ class DaemonProcess {
   void kill();
   /// Sends SIGTERM; returns the exit status.
   int terminate();
-  [[nodiscard]] pid_t pid() const { return pid_; }
+  [[nodiscard]] pid_t pid() const { return process_->pid(); }
   [[nodiscard]] const std::string& address() const { return address_; }
   /// Address of the HTTP server: "127.0.0.1:40123".
   [[nodiscard]] const std::string& http() const { return http_; }
@@ -100,7 +98,7 @@ class DaemonProcess {
  private:
   std::filesystem::path folder_;
   Options options_;
-  pid_t pid_ = -1;
+  std::optional<testing::Process> process_;
   std::string address_, http_;
 };
 

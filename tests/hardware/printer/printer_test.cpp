@@ -7,17 +7,17 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <thread>
 
 #include "tests/hardware/printer/ipp_printer.h"
+#include "tests/support/content.h"
 
 namespace hydroprint::printer {
 namespace {
 
 using std::chrono::milliseconds;
+using testing::content;
 
 /// Short poll intervals and short patience with a lost printer, but a long timeout for slow
 /// replies.
@@ -34,11 +34,6 @@ std::vector<unsigned char> some_bytes(std::size_t count) {
   std::vector<unsigned char> out(count);
   for (unsigned char& byte : out) byte = static_cast<unsigned char>(random());
   return out;
-}
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// A socket that accepts connections; the test decides what happens on them.

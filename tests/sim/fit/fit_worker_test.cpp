@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -15,6 +13,8 @@
 #include "sim/image/io/image_file.h"
 #include "sim/ink/ink_of.h"
 #include "tests/sim/fit/scene.h"
+#include "tests/support/content.h"
+#include "tests/support/names_in.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::fit {
@@ -22,19 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::content;
 using testing::Ended;
+using testing::names_in;
 using Arguments = std::vector<std::string>;
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 std::string obj_of(const mesh::Model& model) {
   std::ostringstream out;

@@ -13,6 +13,7 @@
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
 #include "sim/validate/film_locator.h"
+#include "tests/support/two_threads.h"
 
 namespace hydroprint::testing {
 
@@ -38,12 +39,6 @@ inline Scene ball(double coarseness = 2.5) {
   scene.dip.ink = ink::InkField::from_function(ink::ink_grid(scene.dip.outline), patches).value();
   scene.dip = pipeline::scaled_resolution(scene.dip, coarseness);
   return scene;
-}
-
-inline Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
 }
 
 /// Landing points of a printed grid, rotated by 10 degrees, for a dip with this profile and

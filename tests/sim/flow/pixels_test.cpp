@@ -11,12 +11,14 @@
 #include "sim/sample/icosphere.h"
 #include "tests/sim/support/bodies.h"
 #include "tests/sim/support/dips.h"
+#include "tests/support/two_threads.h"
 
 namespace hydroprint::flow::reference {
 namespace {
 
 using hydroprint::testing::DipSetting;
 using hydroprint::testing::SolvedDip;
+using hydroprint::testing::two_threads;
 
 /// In pixels: 0.04 mm at 600 dpi.
 constexpr double kTolerance_px = 0.945;
@@ -64,12 +66,6 @@ class Trial {
   }
 
  private:
-  static Context two_threads() {
-    Context context;
-    context.threads = 2;
-    return context;
-  }
-
   static SolvedDip closely(const mesh::Model& model, DipSetting setting) {
     setting.schedule.swept_mm /= 4;
     return hydroprint::testing::solve_dip(model, setting);

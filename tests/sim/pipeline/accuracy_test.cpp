@@ -6,17 +6,13 @@
 #include "sim/sample/icosphere.h"
 #include "tests/support/exact_sphere.h"
 #include "tests/support/sphere_dips.h"
+#include "tests/support/two_threads.h"
 
 namespace hydroprint::pipeline {
 namespace {
 
 using testing::Errors;
-
-Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
-}
+using testing::two_threads;
 
 Dip dipped(const mesh::Model& model, const DipOptions& options) {
   return dip(model, options, two_threads()).value();

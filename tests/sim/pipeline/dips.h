@@ -10,14 +10,11 @@
 
 #include "sim/pipeline/dip.h"
 #include "sim/pipeline/pipeline.h"
+#include "tests/support/two_threads.h"
 
 namespace hydroprint::pipeline::testing {
 
-inline Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
-}
+using hydroprint::testing::two_threads;
 
 inline DipOptions options_for(const std::string& film, FilmModel model = FilmModel::kSheet) {
   DipOptions options;

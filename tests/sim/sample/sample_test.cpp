@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -13,10 +11,13 @@
 #include "sim/mesh/make_surface.h"
 #include "sim/mesh/read/read_model.h"
 #include "sim/mesh/uv_warnings.h"
+#include "tests/support/content.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::sample {
 namespace {
+
+using testing::content;
 
 /// The files written by write_sample().
 struct Written {
@@ -43,11 +44,6 @@ class EverySample : public ::testing::TestWithParam<std::string> {
   const mesh::Model& model = written(GetParam()).model;
   const std::filesystem::path folder = written(GetParam()).folder.path();
 };
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 TEST_P(EverySample, IsAClosedManifoldFacingOutward) {
   EXPECT_TRUE(model.warnings.empty());

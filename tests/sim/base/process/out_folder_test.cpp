@@ -7,17 +7,14 @@
 
 #include <fstream>
 
+#include "tests/support/content.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::worker {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string content(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using testing::content;
 
 void write(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
