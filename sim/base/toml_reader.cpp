@@ -21,11 +21,7 @@ std::string place(const std::filesystem::path& path, const toml::source_region& 
 }
 
 std::string quoted_list(const std::vector<std::string_view>& words) {
-  std::string out;
-  for (const std::string_view word : words) {
-    out += (out.empty() ? "\"" : ", \"") + std::string(word) + '"';
-  }
-  return out;
+  return fmt::format("\"{}\"", fmt::join(words, "\", \""));
 }
 
 template <class T>
@@ -213,8 +209,7 @@ Status TomlReader::finish() const {
       if (asked.contains(key.str())) continue;
       if (unknown != nullptr && unknown->source().begin < key.source().begin) continue;
       unknown = &key;
-      known.clear();
-      for (const std::string& name : asked) known += (known.empty() ? "" : ", ") + name;
+      known = fmt::format("{}", fmt::join(asked, ", "));
     }
   }
   if (unknown == nullptr) return {};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "sim/calibrate/calibrate.h"

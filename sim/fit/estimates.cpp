@@ -1,10 +1,12 @@
 #include "sim/fit/estimates.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+
+#include "sim/base/number_text.h"
 
 namespace hydroprint::fit {
 namespace {
@@ -14,12 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kTwoSided = 0.5 + 0.5 * kConfidence;
-
-std::string text(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
-  return buffer.data();
-}
 
 struct Interval {
   double low, high;
@@ -90,16 +86,16 @@ Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
   const Description what = describe(free[unknown.parameter], start);
   std::string reason;
   if (unknown.taken_for < 0) {
-    reason = "over its plausible range (" + what.plausible +
-             ") it moves the measured points by only " + text(unknown.moves_mm) +
-             " mm, too little against residuals of " + text(residual_mm) +
-             " mm. Measure more points, where the film was stretched most";
+    reason = fmt::format(
+        "over its plausible range ({}) it moves the measured points by only {} mm, too little "
+        "against residuals of {} mm. Measure more points, where the film was stretched most",
+        what.plausible, three_digits(unknown.moves_mm), three_digits(residual_mm));
   } else {
-    reason =
-        "these points cannot distinguish it from " + describe(free[unknown.taken_for], start).name +
-        ": both move them in the same way, and its interval would exceed the plausible range (" +
-        what.plausible +
-        "). Measure points spread farther over the film, or hold the other parameter";
+    reason = fmt::format(
+        "these points cannot distinguish it from {}: both move them in the same way, and its "
+        "interval would exceed the plausible range ({}). Measure points spread farther over the "
+        "film, or hold the other parameter",
+        describe(free[unknown.taken_for], start).name, what.plausible);
   }
   return {what.name, reason};
 }

@@ -1,5 +1,7 @@
 #include "sim/fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -263,9 +265,9 @@ class Fitting {
                                         [](const auto& p) { return p.is_used() && p.is_outlier; });
     if (outliers > 0) {
       out_.warnings.push_back({"outliers",
-                               std::to_string(outliers) +
-                                   " points lie beyond 4 robust standard deviations but "
-                                   "still count; see residuals.csv, or use --drop-outliers",
+                               fmt::format("{} points lie beyond 4 robust standard deviations but "
+                                           "still count; see residuals.csv, or use --drop-outliers",
+                                           outliers),
                                options_.points_name});
     }
     if (!out_.settled) {

@@ -1,9 +1,10 @@
 #include "sim/fit/parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace hydroprint::fit {
 namespace {
@@ -39,9 +40,9 @@ double range_of(Parameter parameter, const film::Profile& profile) {
 Description describe(Parameter parameter, const film::Profile& profile) {
   const double range = range_of(parameter, profile);
   if (parameter == Parameter::kInkRatio) {
-    std::ostringstream plausible;
-    plausible << "0 to " << profile.thickness_mm << " mm, the film's own thickness";
-    return {"ink_ratio_mm", plausible.str(), 0, kMostInk_mm / range, 0.03};
+    return {"ink_ratio_mm",
+            fmt::format("0 to {} mm, the film's own thickness", profile.thickness_mm), 0,
+            kMostInk_mm / range, 0.03};
   }
   if (parameter == Parameter::kDrag) {
     return {"drag_length_mm", "none to 10 mm", 0, kMostDrag_per_mm2 / range, 0.01};

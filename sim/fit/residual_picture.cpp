@@ -1,9 +1,10 @@
 #include "sim/fit/residual_picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -91,11 +92,10 @@ void draw_panel(RgbImage& image, const text::Font& font, const film::Outline& ou
     const Vector2d end = p.point.film_mm + factor * (p.*panel.predicted - p.point.film_mm);
     draw_arrow(image, at, scale.at(panel, end), colour);
   }
-  std::array<char, 120> title{};
-  std::snprintf(title.data(), title.size(), "%s  rms %.3f mm  arrows enlarged %.0f times",
-                panel.name.c_str(), panel.rms_mm, factor);
+  const std::string title = fmt::format("{}  rms {:.3f} mm  arrows enlarged {:.0f} times",
+                                        panel.name, panel.rms_mm, factor);
   image::draw_text(image, font, panel.corner_px.x(), panel.corner_px.y() - kLetter_px, kLetter_px,
-                   title.data(), kInk);
+                   title, kInk);
 }
 
 }  // namespace

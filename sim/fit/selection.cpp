@@ -1,5 +1,7 @@
 #include "sim/fit/selection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -65,9 +67,9 @@ Status check_enough(const std::vector<PointResult>& points, const std::string& n
   if (found >= kLeastPlaces) return {};
   const auto used =
       std::count_if(points.begin(), points.end(), [](const PointResult& p) { return p.is_used(); });
-  std::string what = name + ": " + std::to_string(used) + " of " + std::to_string(points.size()) +
-                     " points can be used, at " + std::to_string(found) +
-                     " places 1 mm apart on the film, which is too few";
+  std::string what = fmt::format(
+      "{}: {} of {} points can be used, at {} places 1 mm apart on the film, which is too few",
+      name, used, points.size(), found);
   if (const std::string why = main_reason(points); !why.empty()) {
     what += " (most of the others: " + why + ")";
   }

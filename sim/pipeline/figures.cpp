@@ -1,13 +1,14 @@
 #include "sim/pipeline/figures.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 
+#include "sim/base/number_text.h"
 #include "sim/waterline/body.h"
 
 namespace hydroprint::pipeline {
@@ -52,24 +53,18 @@ void measure_stretch(const flow::SurfaceMap& map, const std::vector<char>& is_cl
   figures.stretch_max = stretch.back();
 }
 
-std::string percent(double share) {
-  return std::to_string(static_cast<int>(std::lround(1000 * share)) / 10.0).substr(0, 4) + " %";
+std::string at_immersion(double immersion_mm) {
+  return fmt::format("{:.2f} mm immersion", immersion_mm);
 }
 
-/// A number with two digits after the point.
-std::string fixed(double value) {
-  std::array<char, 32> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.2f", value);
-  return {text.data(), static_cast<std::size_t>(length)};
-}
-
+/// Pages parse this text.
 std::string where_of(const waterline::Trap& trap) {
-  return fixed(trap.immersion_mm) + " mm immersion, at (" + fixed(trap.place_mm.x()) + ", " +
-         fixed(trap.place_mm.y()) + ") mm";
+  return fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(trap.immersion_mm),
+                     trap.place_mm.x(), trap.place_mm.y());
 }
 
 std::string and_others(std::ptrdiff_t others) {
-  return others > 0 ? " (and " + std::to_string(others) + " smaller)" : "";
+  return others > 0 ? fmt::format(" (and {} smaller)", others) : "";
 }
 
 void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings) {
@@ -77,10 +72,10 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   const waterline::Trap& largest = traps.front();
   warnings.push_back(
       {"film_trapped",
-       "the waterline closes around a piece of film of up to " + fixed(largest.area_mm2) + " mm2" +
-           and_others(static_cast<std::ptrdiff_t>(traps.size()) - 1) +
-           ", which after that can only stretch. Turn the object so that it enters the water edge "
-           "first",
+       fmt::format("the waterline closes around a piece of film of up to {} mm2{}, which after "
+                   "that can only stretch. Turn the object so that it enters the water edge first",
+                   three_digits(largest.area_mm2),
+                   and_others(static_cast<std::ptrdiff_t>(traps.size()) - 1)),
        where_of(largest)});
   const auto airy = [](const waterline::Trap& trap) { return trap.ceiling_mm.has_value(); };
   const auto most = std::max_element(
@@ -88,27 +83,30 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
       [](const waterline::Trap& a, const waterline::Trap& b) { return a.air_mm3 < b.air_mm3; });
   const auto count = std::count_if(traps.begin(), traps.end(), airy);
   if (count == 0) return;
-  warnings.push_back({"air_trapped",
-                      "the object traps " + fixed(most->air_mm3 / 1000) + " cm3 of air" +
-                          and_others(count - 1) +
-                          ", which keeps the water out of the cavity; do not trust the map there. "
-                          "Turn the object or drill a vent",
-                      where_of(*most)});
+  warnings.push_back(
+      {"air_trapped",
+       fmt::format("the object traps {} cm3 of air{}, which keeps the water out of the cavity; do "
+                   "not trust the map there. Turn the object or drill a vent",
+                   three_digits(most->air_mm3 / 1000), and_others(count - 1)),
+       where_of(*most)});
 }
 
 /// Warns where the film tears or wrinkles, so that it no longer behaves as a sheet.
 void warn_of_strain(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
   const auto warn = [&](double share, const char* code, const std::string& message) {
     if (share > 0) {
-      warnings.push_back({code, "on " + percent(share) + " of the surface " + message, "surface"});
+      warnings.push_back(
+          {code, fmt::format("on {} of the surface {}", percent(share), message), "surface"});
     }
   };
   warn(figures.torn_share, "film_torn",
-       "the film tears, because it is stretched more than " + fixed(profile.tear_stretch) +
-           " times. Dip less deep, turn the object, or use a larger film");
+       fmt::format("the film tears, because it is stretched more than {} times. Dip less deep, "
+                   "turn the object, or use a larger film",
+                   profile.tear_stretch));
   warn(figures.wrinkled_share, "film_wrinkled",
-       "the film wrinkles, because it is compressed below " + fixed(profile.wrinkle_stretch) +
-           " of its width. Turn the object or dip less deep");
+       fmt::format("the film wrinkles, because it is compressed below {} of its width. Turn the "
+                   "object or dip less deep",
+                   profile.wrinkle_stretch));
 }
 
 }  // namespace
@@ -155,33 +153,35 @@ DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
 
 Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   Warnings warnings;
-  const film::Outline& outline = options.outline;
-  const std::string depth = std::to_string(figures.depth_mm) + " mm immersion";
+
   if (figures.stopped_at_edge) {
     warnings.push_back({"film_edge_reached",
-                        "the waterline reaches the edge of the film " + outline.name +
-                            "; the dip ends there and nothing above it is printed",
-                        depth});
+                        fmt::format("the waterline reaches the edge of the film {}; the dip ends "
+                                    "there and nothing above it is printed",
+                                    options.outline.name),
+                        at_immersion(figures.depth_mm)});
   }
   if (figures.clamped_share > 0) {
     warnings.push_back({"theta_clamped",
-                        percent(figures.clamped_share) +
-                            " of the surface faces up, within 10 degrees of level; there theta is "
-                            "clamped at 170 degrees: do not trust the map there",
+                        fmt::format("{} of the surface faces up, within 10 degrees of level; there "
+                                    "theta is clamped at 170 degrees: do not trust the map there",
+                                    percent(figures.clamped_share)),
                         "surface"});
   }
   warn_of_traps(figures.traps, warnings);
   if (figures.coverage < 0.995) {
-    warnings.push_back({"parts_not_reached",
-                        "film reaches " + percent(figures.coverage) +
-                            " of the surface; the rest stays bare. Turn the object or dip it again",
-                        "surface"});
+    warnings.push_back(
+        {"parts_not_reached",
+         fmt::format(
+             "film reaches {} of the surface; the rest stays bare. Turn the object or dip it again",
+             percent(figures.coverage)),
+         "surface"});
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
     warnings.push_back({"stretch_beyond_stokes",
-                        "the film is stretched up to " + fixed(figures.stretch_max) +
-                            " times; beyond 1.3 Stokes flow alone is not accurate (section 4.4). "
-                            "Use --model sheet",
+                        fmt::format("the film is stretched up to {} times; beyond {} Stokes flow "
+                                    "alone is not accurate (section 4.4). Use --model sheet",
+                                    three_digits(figures.stretch_max), kStokesStretch),
                         "surface"});
   }
   if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
@@ -203,20 +203,20 @@ Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm
     const std::size_t all = passed_over_mm.size() + static_cast<std::size_t>(steps);
     warnings.push_back(
         {"waterlines_passed_over",
-         std::to_string(passed_over_mm.size()) + " of " + std::to_string(all) +
-             " waterlines are passed over, because two of their curves nearly touch; "
-             "there the film's motion comes from the neighbouring waterlines. Widen "
-             "or close such gaps in the model",
-         fixed(passed_over_mm.front()) + " mm immersion"});
+         fmt::format("{} of {} waterlines are passed over, because two of their curves nearly "
+                     "touch; there the film's motion comes from the neighbouring waterlines. Widen "
+                     "or close such gaps in the model",
+                     passed_over_mm.size(), all),
+         at_immersion(passed_over_mm.front())});
   }
   if (unsettled_mm > kUnsettled_mm) {
-    warnings.push_back({"sheet_unsettled",
-                        "the thickness of the film does not settle, as happens where it tears or "
-                        "folds; another sweep would still move it by " +
-                            fixed(unsettled_mm) +
-                            " mm. Do not trust the result where the stretch is extreme; turn the "
-                            "object or dip less deep",
-                        "film"});
+    warnings.push_back(
+        {"sheet_unsettled",
+         fmt::format("the thickness of the film does not settle, as happens where it tears or "
+                     "folds; another sweep would still move it by {} mm. Do not trust the result "
+                     "where the stretch is extreme; turn the object or dip less deep",
+                     three_digits(unsettled_mm)),
+         "film"});
   }
   return warnings;
 }

@@ -1,5 +1,7 @@
 #include "sim/print/colours.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -77,8 +79,9 @@ Limited limit_ink(std::uint8_t* cmyk, std::size_t count, int most) {
 
 Status check_limit(double ink_limit) {
   if (ink_limit > 0 && ink_limit <= ink::kMostInk) return {};
-  return fail(Code::kOutOfRange, "ink limit: " + text_of(ink_limit) +
-                                     " is out of range. Use C + M + Y + K above 0 and at most 4");
+  return fail(Code::kOutOfRange,
+              fmt::format("ink limit: {} is out of range. Use C + M + Y + K above 0 and at most {}",
+                          ink_limit, ink::kMostInk));
 }
 
 /// The conversion for the settings; sets the number of channels.

@@ -1,5 +1,7 @@
 #include "sim/print/embedded_font.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -14,12 +16,7 @@ namespace {
 constexpr std::size_t kMostPerSection = 100;  ///< entries of a CMap's section
 
 /// Four hexadecimal digits.
-std::string hex16(unsigned value) {
-  constexpr const char* kDigits = "0123456789ABCDEF";
-  std::string out;
-  for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[value >> shift & 0xF];
-  return out;
-}
+std::string hex16(unsigned value) { return fmt::format("{:04X}", value); }
 
 /// UTF-16, big-endian, as hexadecimal digits.
 std::string utf16(char32_t c) {
@@ -38,9 +35,9 @@ std::string to_unicode_cmap(const std::map<char32_t, unsigned>& cids) {
   for (const auto& [character, cid] : cids) {
     if (in_section == 0) {
       in_section = std::min(left, kMostPerSection);
-      out += std::to_string(in_section) + " beginbfchar\n";
+      out += fmt::format("{} beginbfchar\n", in_section);
     }
-    out += "<" + hex16(cid) + "> <" + utf16(character) + ">\n";
+    out += fmt::format("<{}> <{}>\n", hex16(cid), utf16(character));
     --left;
     if (--in_section == 0) out += "endbfchar\n";
   }

@@ -1,5 +1,7 @@
 #include "sim/print/layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -75,10 +77,10 @@ Result<Cuts> best_cuts(const image::FilmGrid& grid, const film::Outline& outline
       other.sheets() > 0 && (lying.sheets() == 0 || other.sheets() < lying.sheets());
   const Cuts& best = use_other ? other : lying;
   if (best.sheets() > 0 && best.sheets() <= kMostSheets) return best;
-  return fail(Code::kOutOfRange, "paper: too small for the film " + outline.name +
-                                     ", which would take " + "more than " +
-                                     std::to_string(kMostSheets) +
-                                     " sheets. Use larger paper, or less margin and overlap");
+  return fail(Code::kOutOfRange,
+              fmt::format("paper: too small for the film {}, which would take more than {} sheets. "
+                          "Use larger paper, or less margin and overlap",
+                          outline.name, kMostSheets));
 }
 
 /// The pixels of a window within the area that the printer can print.
@@ -158,7 +160,7 @@ std::string details(const PageSettings& settings, std::size_t number, std::size_
     if (!text.empty()) out += (out.empty() ? "" : "  ") + text;
   };
   add(settings.date);
-  if (sheets > 1) add("sheet " + std::to_string(number) + " of " + std::to_string(sheets));
+  if (sheets > 1) add(fmt::format("sheet {} of {}", number, sheets));
   if (settings.mirror) add("mirrored: ink side down");
   return out;
 }
@@ -219,15 +221,16 @@ class LayOut {
 };
 
 void warn_of_marks(const Sheet& sheet, std::size_t number, Warnings& warnings) {
-  const std::string where = "sheet " + std::to_string(number);
+  const std::string where = fmt::format("sheet {}", number);
   if (sheet.is_text_shortened) warn_of_shortened_text(where, warnings);
   if (sheet.dropped.empty()) return;
-  std::string names;
-  for (const std::string& name : sheet.dropped) names += (names.empty() ? "" : ", ") + name;
-  warnings.push_back({"marks_dropped",
-                      "there is not enough room beside the film, so these are left out: " + names +
-                          ". Use larger paper",
-                      where});
+
+  warnings.push_back(
+      {"marks_dropped",
+       fmt::format(
+           "there is not enough room beside the film, so these are left out: {}. Use larger paper",
+           fmt::join(sheet.dropped, ", ")),
+       where});
 }
 
 std::vector<Text> texts_of(const std::vector<Sheet>& sheets) {

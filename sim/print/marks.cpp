@@ -1,5 +1,7 @@
 #include "sim/print/marks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -224,7 +226,7 @@ Drawing ruler(const Vector2d& low_mm, double length_mm, bool upright) {
     out.texts.push_back({text, at, upright ? 0.8 : 1.1, 1});
   };
   label("0", 0);
-  label(std::to_string(static_cast<int>(length_mm)) + " mm", length_mm);
+  label(fmt::format("{} mm", static_cast<int>(length_mm)), length_mm);
   return out;
 }
 

@@ -6,9 +6,9 @@
 
 #define POINTERHOLDER_TRANSITION 4  // required by its headers; 4: its old pointers are not used
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -28,12 +28,7 @@ namespace {
 constexpr double kPointsPerMm = 72 / 25.4;
 
 /// Six digits after the decimal point: a millionth of a point.
-std::string number(double value) {
-  std::array<char, 64> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                 std::chars_format::fixed, 6);
-  return {buffer.data(), end.ptr};
-}
+std::string number(double value) { return fmt::format("{:.6f}", value); }
 
 std::string points(double mm) { return number(mm * kPointsPerMm); }
 
@@ -70,8 +65,8 @@ Result<QPDFObjectHandle> image_object(QPDF& pdf, const image::PrinterImage& imag
 std::string drawn(const PlacedImage& placed, std::size_t index) {
   const Eigen::Vector2d size_mm =
       Eigen::Vector2d(placed.image.width, placed.image.height) * placed.pitch_mm;
-  return "q " + points(size_mm.x()) + " 0 0 " + points(size_mm.y()) + " " + place(placed.low_mm) +
-         " cm /Im" + std::to_string(index) + " Do Q\n";
+  return fmt::format("q {} 0 0 {} {} cm /Im{} Do Q\n", points(size_mm.x()), points(size_mm.y()),
+                     place(placed.low_mm), index);
 }
 
 std::string drawn(const Stroke& stroke, bool cmyk) {
@@ -183,7 +178,7 @@ Status add_page(QPDF& pdf, const Page& page, bool cmyk, const std::optional<Docu
   for (std::size_t i = 0; i < page.images.size(); ++i) {
     HP_ASSIGN_OR_RETURN(const QPDFObjectHandle object,
                         image_object(pdf, page.images[i].image, context));
-    images.replaceKey("/Im" + std::to_string(i), object);
+    images.replaceKey(fmt::format("/Im{}", i), object);
     content += drawn(page.images[i], i);
   }
   content += "1 J 1 j\n";  // round pen

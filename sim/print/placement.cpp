@@ -1,10 +1,10 @@
 #include "sim/print/placement.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -114,13 +114,8 @@ Strokes cross(const Vector2d& at_mm) {
   return out;
 }
 
-std::string rounded(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.2f", value == 0 ? 0 : value);
-  return buffer.data();
-}
+/// The text beside the drawing. Adding 0.0 turns -0 into 0.
 
-/// The text beside the drawing.
 std::vector<std::string> lines_of(const Placement& placement, const PageSettings& settings) {
   const Eigen::Quaterniond q(placement.X_FO.linear());
   const Eigen::Vector3d& t = placement.X_FO.translation();
@@ -129,12 +124,12 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
   if (!settings.date.empty()) out.push_back(settings.date);
   out.emplace_back("placement, seen from above");
   out.emplace_back("bold: first contact, middle");
-  out.push_back("x " + rounded(placement.contact_mm.x()) + "  y " +
-                rounded(placement.contact_mm.y()) + " mm");
+  out.push_back(fmt::format("x {:.2f}  y {:.2f} mm", placement.contact_mm.x() + 0.0,
+                            placement.contact_mm.y() + 0.0));
   out.emplace_back("grey: all of the object");
-  out.push_back("wxyz " + rounded(q.w()) + " " + rounded(q.x()) + " " + rounded(q.y()) + " " +
-                rounded(q.z()));
-  out.push_back("origin x " + rounded(t.x()) + "  y " + rounded(t.y()) + " mm");
+  out.push_back(fmt::format("wxyz {:.2f} {:.2f} {:.2f} {:.2f}", q.w() + 0.0, q.x() + 0.0,
+                            q.y() + 0.0, q.z() + 0.0));
+  out.push_back(fmt::format("origin x {:.2f}  y {:.2f} mm", t.x() + 0.0, t.y() + 0.0));
   return out;
 }
 

@@ -1,10 +1,13 @@
 #include "sim/print/print_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "sim/base/number_text.h"
 #include "sim/image/film/film_image.h"
 #include "sim/image/io/image_file.h"
 #include "sim/image/io/printer_image.h"
@@ -15,9 +18,7 @@ namespace {
 constexpr double kMmPerInch = 25.4;
 
 /// "2480 x 3508"
-std::string size_text(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
+std::string size_text(int width, int height) { return fmt::format("{} x {}", width, height); }
 
 /// Dots per inch of an image with the size of a film image of this film.
 Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
@@ -26,15 +27,16 @@ Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
   const double dpi = given.value_or(guess);
   if (!(dpi >= image::kMinDpi && dpi <= image::kMaxDpi)) {
     return fail(Code::kOutOfRange,
-                name + ": " + text_of(dpi) + " dpi is out of range. Use an image of " +
-                    text_of(image::kMinDpi) + " to " + text_of(image::kMaxDpi) + " dpi");
+                fmt::format("{}: {} dpi is out of range. Use an image of {} to {} dpi", name, dpi,
+                            image::kMinDpi, image::kMaxDpi));
   }
   const image::FilmGrid grid = image::film_grid(outline, kMmPerInch / dpi);
   if (grid.columns == image.width && grid.rows == image.height) return dpi;
   return fail(Code::kInvalidArgument,
-              name + ": " + size_text(image.width, image.height) + " pixels, but a film image of " +
-                  outline.name + " at " + text_of(dpi) + " dpi has " +
-                  size_text(grid.columns, grid.rows) + ". Give the --film and --dpi of the image");
+              fmt::format("{}: {} pixels, but a film image of {} at {} dpi has {}. Give the --film "
+                          "and --dpi of the image",
+                          name, size_text(image.width, image.height), outline.name, dpi,
+                          size_text(grid.columns, grid.rows)));
 }
 
 void mirror(image::PrinterImage& image) {
@@ -98,10 +100,11 @@ Warning margin_warning(const Part& part, std::size_t number_of_sheet, double mar
     if (part.at_edge[i]) edges += (edges.empty() ? "" : ", ") + std::string(kEdges[i]);
   }
   return {"image_in_printer_margin",
-          text_of(lost_mm2) + " mm2 of the image lie within " + text_of(margin_mm) +
-              " mm of the paper's edge, which the printer cannot print, and stay white; place the "
-              "object nearer the film's middle, or print without margin",
-          "sheet " + std::to_string(number_of_sheet) + ": " + edges};
+          fmt::format("{} mm2 of the image lie within {} mm of the paper's edge, which the printer "
+                      "cannot print, and stay white; place the object nearer the film's middle, or "
+                      "print without margin",
+                      three_digits(lost_mm2), margin_mm),
+          fmt::format("sheet {}: {}", number_of_sheet, edges)};
 }
 
 void add_pages(const image::PrinterImage& image, const PrintSettings& settings, Print& print) {

@@ -1,7 +1,7 @@
 #include "sim/print/settings.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "sim/film/outline.h"
@@ -15,7 +15,7 @@ constexpr double kMostBar_mm = 2000;
 
 tl::unexpected<Error> out_of_range(const std::string& what, double value, double most) {
   return fail(Code::kOutOfRange,
-              what + ": " + text_of(value) + " mm is out of range. Use 0 to " + text_of(most));
+              fmt::format("{}: {} mm is out of range. Use 0 to {}", what, value, most));
 }
 
 }  // namespace
@@ -31,12 +31,6 @@ Result<Eigen::Vector2d> parse_paper(const std::string& text) {
   }
   return fail(Code::kInvalidArgument,
               about + "not understood. Give A4, A3, letter or WIDTHxHEIGHT (mm)");
-}
-
-std::string text_of(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-  return buffer.data();
 }
 
 Status check(const PageSettings& settings) {

@@ -36,9 +36,6 @@ struct ColourSettings {
 /// for sides below 10 mm or above 2000 mm.
 [[nodiscard]] Result<Eigen::Vector2d> parse_paper(const std::string& text);
 
-/// A number for messages: six digits, without trailing zeros.
-[[nodiscard]] std::string text_of(double value);
-
 /// Refuses (kOutOfRange), naming the setting, values out of range and settings that contradict each
 /// other.
 [[nodiscard]] Status check(const PageSettings& settings);

@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "sim/scan/point_grid.h"

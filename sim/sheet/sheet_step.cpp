@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 
 #include "sim/base/check.h"
 #include "sim/velocity/quadratic_elements.h"

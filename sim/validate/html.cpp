@@ -1,5 +1,7 @@
 #include "sim/validate/html.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "sim/validate/measure.h"
@@ -111,9 +113,10 @@ std::string pictures_html(const Experiment& experiment) {
   std::string out = "<div class=\"pictures\">\n";
   for (const Picture& p : experiment.pictures) {
     out += p.height > p.width ? "<figure class=\"tall\">" : "<figure>";
-    out += "<a href=\"" + escaped(p.file) + "\"><img src=\"" + escaped(p.file) + "\" alt=\"" +
-           escaped(p.caption) + "\" width=\"" + std::to_string(p.width) + "\" height=\"" +
-           std::to_string(p.height) + "\"/></a>" + element("figcaption", p.caption) + "</figure>\n";
+    out += fmt::format(
+        "<a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\" width=\"{2}\" "
+        "height=\"{3}\"/></a>{4}</figure>\n",
+        escaped(p.file), escaped(p.caption), p.width, p.height, element("figcaption", p.caption));
   }
   return out + "</div>\n";
 }
@@ -155,9 +158,8 @@ std::string head_html(const Report& report) {
            "\n";
   }
   out += element("p",
-                 std::to_string(report.passed) + " of " +
-                     std::to_string(report.passed + report.failed) +
-                     " figures with a limit are within it.",
+                 fmt::format("{} of {} figures with a limit are within it.", report.passed,
+                             report.passed + report.failed),
                  report.failed == 0 ? "class=\"passed\"" : "class=\"failed\"") +
          "\n<ul>\n";
   for (const Experiment& e : report.experiments) {

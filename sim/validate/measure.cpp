@@ -1,8 +1,9 @@
 #include "sim/validate/measure.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -111,11 +112,7 @@ image::Quantity quantity_of(const std::string& label, const mesh::Surface& surfa
 }
 
 std::string text_of(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 64> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                          std::chars_format::fixed, digits);
-  return error == std::errc() ? std::string(buffer.data(), end) : "-";
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
 }  // namespace hydroprint::validate

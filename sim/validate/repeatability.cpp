@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -100,17 +102,17 @@ image::RgbImage chessboard() {
 Status repeatability(ExperimentContext& setup, Experiment& out, const Context& context) {
   const int draws = setup.quick() ? kQuickDraws : kDraws;
   out.text = {
-      "The paper prints the same chessboard on the same face several times and finds it in the "
-      "same places. Here the same film, with a grid of 5 mm, is dipped " +
-          std::to_string(draws) +
-          " times onto the globe (radius 60 mm). Each dip has different random errors of the "
-          "gripper and of the film's position. The figure is the spread of the positions where "
-          "each grid point lands.",
-      "Assumed standard deviations (normal distribution, for each axis; seed " +
-          std::to_string(kSeed) +
-          "): gripper 0.3 mm sideways and 0.3 degrees about each axis; film " +
-          "0.5 mm along and across, and 0.2 degrees in its plane. Each dip is computed with Stokes "
-          "flow, which is fast, and accurate enough for the difference of two similar dips."};
+      fmt::format(
+          "The paper prints the same chessboard on the same face several times and finds it in the "
+          "same places. Here the same film, with a grid of 5 mm, is dipped {} times onto the globe "
+          "(radius 60 mm). Each dip has different random errors of the gripper and of the film's "
+          "position. The figure is the spread of the positions where each grid point lands.",
+          draws),
+      fmt::format("Assumed standard deviations (normal distribution, for each axis; seed {}): "
+                  "gripper 0.3 mm sideways and 0.3 degrees about each axis; film 0.5 mm along and "
+                  "across, and 0.2 degrees in its plane. Each dip is computed with Stokes flow, "
+                  "which is fast, and accurate enough for the difference of two similar dips.",
+                  kSeed)};
   Steps steps(context, out.name, draws + 1);
   HP_ASSIGN_OR_RETURN(const Body* body, setup.body("globe", context));
   pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
@@ -159,9 +161,8 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
   for (const auto& [from, to] :
        std::vector<std::pair<int, int>>{{0, 60}, {60, 90}, {90, 120}, {120, 150}}) {
     const Summary s = summary(from, to);
-    table.rows.push_back({std::to_string(from) + " to " + std::to_string(to) + " degrees",
-                          std::to_string(s.count), text_of(s.p50, 2), text_of(s.p95, 2),
-                          text_of(s.max, 2)});
+    table.rows.push_back({fmt::format("{} to {} degrees", from, to), std::to_string(s.count),
+                          text_of(s.p50, 2), text_of(s.p95, 2), text_of(s.max, 2)});
   }
   out.tables.push_back(std::move(table));
   const std::size_t middle = points.size() / 2;

@@ -1,5 +1,6 @@
 #include "sim/worker/spec_file.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/message.h>
 #include <google/protobuf/stubs/logging.h>
 #include <google/protobuf/util/json_util.h>
@@ -76,7 +77,7 @@ Status check_files(const Message& spec, const FieldDescriptor& field,
   }
   for (int i = 0; i < reflection.FieldSize(spec, &field); ++i) {
     HP_RETURN_IF_ERROR(check_file(
-        field.name() + "[" + std::to_string(i) + "]",
+        fmt::format("{}[{}]", field.name(), i),
         static_cast<const v1::InputFile&>(reflection.GetRepeatedMessage(spec, &field, i)), inputs));
   }
   return {};

@@ -1,5 +1,7 @@
 #include "sim/image/figures/contact_sheet.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,13 +16,6 @@ namespace {
 constexpr int kCaption_px = 44;
 constexpr double kLetter_px = 13;  ///< height of an x
 constexpr Rgb8 kPaper = {250, 250, 249}, kInk = {60, 64, 70};
-
-std::string number(double value) {
-  std::string text = std::to_string(std::round(value * 1e4) / 1e4 + 0.0);  // no -0
-  text.resize(text.find('.') + 5);
-  while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
-  return text;
-}
 
 void fill(RgbImage& image, const Window& area,
           const std::function<Eigen::Vector3f(int x, int y)>& coded) {
@@ -82,7 +77,8 @@ Status draw_legend(RgbImage& sheet, const Scale& scale) {
     fill(sheet, {x, top + kBarHeight, x + 1, top + kBarHeight + 7}, [](int, int) {
       return Eigen::Vector3f(Eigen::Vector3f(kInk[0], kInk[1], kInk[2]) / 255.0F);
     });
-    const std::string text = number(scale.range.low + i * scale.range.step);
+    const double value = scale.range.low + i * scale.range.step;
+    const std::string text = fmt::format("{}", std::round(value * 1e4) / 1e4 + 0.0);  // no -0
     draw_text(sheet, *font, x - 0.5 * text_width_px(*font, kLetter_px, text), top + kBarHeight + 34,
               kLetter_px, text + (i == steps ? "+" : ""), kInk);
   }

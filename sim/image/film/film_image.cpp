@@ -1,9 +1,10 @@
 #include "sim/image/film/film_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <string>
 
 #include "sim/base/check.h"
 #include "sim/image/film/tile_bins.h"
@@ -188,15 +189,19 @@ class Block {
 
 Status check_size(const film::Outline& outline, double dpi) {
   if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
-    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) +
-                                       ": must be from 20 to 2400. "
-                                       "Give the resolution of the printer, such as 300 or 600");
+    return fail(
+        Code::kOutOfRange,
+        fmt::format(
+            "dpi {}: must be from {} to {}. Give the resolution of the printer, such as 300 or 600",
+            dpi, kMinDpi, kMaxDpi));
   }
   const Eigen::Vector2d size_px = outline.size_mm() * dpi / 25.4;
   if (!(size_px.x() * size_px.y() <= kMaxFilmImage_px)) {
-    return fail(Code::kOutOfRange,
-                "dpi " + std::to_string(dpi) + " on film " + outline.name +
-                    ": the image would have more than 400 million pixels. Lower the dpi");
+    return fail(
+        Code::kOutOfRange,
+        fmt::format(
+            "dpi {} on film {}: the image would have more than 400 million pixels. Lower the dpi",
+            dpi, outline.name));
   }
   return {};
 }

@@ -1,9 +1,10 @@
 #include "sim/image/film/film_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "sim/image/film/stretch.h"
 #include "sim/image/film/tile_bins.h"
@@ -39,9 +40,9 @@ void draw(const mesh::Surface& surface, const flow::SurfaceMap& values,
 Result<FilmMap> film_map(const mesh::Surface& surface, const flow::FlowMap& map,
                          const film::Outline& outline, double cell_mm, const Context& context) {
   if (!(cell_mm >= kMinCell_mm && cell_mm <= outline.size_mm().minCoeff())) {
-    return fail(Code::kOutOfRange,
-                "film map: cell size " + std::to_string(cell_mm) +
-                    " mm is out of range. Choose from 0.05 mm to the film's shorter side");
+    return fail(Code::kOutOfRange, fmt::format("film map: cell size {} mm is out of range. Choose "
+                                               "from {} mm to the film's shorter side",
+                                               cell_mm, kMinCell_mm));
   }
   FilmMap out;
   out.grid = film_grid(outline, cell_mm);

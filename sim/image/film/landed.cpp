@@ -1,8 +1,9 @@
 #include "sim/image/film/landed.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "sim/base/check.h"
 #include "sim/image/film/film_image.h"
@@ -99,9 +100,10 @@ Result<RgbaImage> landed_texture(const mesh::Model& model, const mesh::Surface& 
                     "Unwrap the model, or use the colours per vertex");
   }
   if (width < 1 || height < 1 || width > kMaxSide_px || height > kMaxSide_px) {
-    return fail(Code::kOutOfRange, "landed texture: " + std::to_string(width) + " x " +
-                                       std::to_string(height) +
-                                       " pixels is out of range. Choose sides from 1 to 16384");
+    return fail(
+        Code::kOutOfRange,
+        fmt::format("landed texture: {} x {} pixels is out of range. Choose sides from 1 to {}",
+                    width, height, kMaxSide_px));
   }
   LandedTexture landed(width, height);
   for (std::size_t t = 0; t < tiles.size(); ++t) {

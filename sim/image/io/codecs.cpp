@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +109,7 @@ Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& 
   const int rows = spec.tile_width ? spec.tile_height : 64;
   const std::size_t row = static_cast<std::size_t>(spec.width) * spec.nchannels;
   if (rows < 1 || row * static_cast<std::size_t>(rows) > (std::size_t{1} << 29)) {
-    return corrupt(name, "tiles of " + std::to_string(spec.tile_height) + " rows");
+    return corrupt(name, fmt::format("tiles of {} rows", spec.tile_height));
   }
   std::vector<Value> buffer(row * static_cast<std::size_t>(rows));
   const TypeDesc type = layout.is_float ? TypeDesc::FLOAT : TypeDesc::UINT16;
@@ -146,7 +147,7 @@ Result<Opened> open(IOProxy& proxy, const std::string& name) {
   if (!out.input->open(name, out.spec, config)) return corrupt(name, out.input->geterror());
   HP_RETURN_IF_ERROR(check_size(out.spec.width, out.spec.height, bytes.size, format, name));
   if (out.spec.depth > 1 || out.spec.nchannels < 1 || out.spec.nchannels > 64) {
-    return corrupt(name, std::to_string(out.spec.nchannels) + " channels");
+    return corrupt(name, fmt::format("{} channels", out.spec.nchannels));
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #include "sim/image/io/header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -33,7 +35,7 @@ std::uint32_t crc32(std::uint32_t crc, const unsigned char* bytes, std::size_t c
 }
 
 std::string at_byte(const std::string& name, std::int64_t offset) {
-  return name + ", byte " + std::to_string(offset) + ": ";
+  return fmt::format("{}, byte {}: ", name, offset);
 }
 
 /// Compares the checksum of a PNG chunk's type and data with the stored one.
@@ -139,24 +141,25 @@ Result<Format> check_header(const ByteSource& bytes, const std::string& name) {
 
 Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_size, Format format,
                   const std::string& name) {
-  const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  const std::string size = fmt::format("{} x {} pixels", width, height);
   if (width < 1 || height < 1) {
     return fail(Code::kDataLoss,
-                name + ", header: impossible size, " + size + ". Get the file again");
+                fmt::format("{}, header: impossible size, {}. Get the file again", name, size));
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
-    return fail(Code::kOutOfRange, name + ", header: " + size + ", more than " +
-                                       std::to_string(kMaxImageSide_px) + " per side or " +
-                                       std::to_string(kMaxImageArea_px / 1'000'000) +
-                                       " million in all. Scale the image down");
+    return fail(
+        Code::kOutOfRange,
+        fmt::format(
+            "{}, header: {}, more than {} per side or {} million in all. Scale the image down",
+            name, size, kMaxImageSide_px, kMaxImageArea_px / 1'000'000));
   }
   // Deflate compresses at most 1032 to 1, here at least one bit per pixel; the other formats less
   // than 5000 to 1.
   const std::int64_t pixels_per_byte = format == Format::kPng ? 8 * 1032 : 8 * 5000;
   if (width * height / pixels_per_byte > file_size) {
-    return fail(Code::kDataLoss, name + ", header: announces " + size + " in a file of " +
-                                     std::to_string(file_size) +
-                                     " bytes, which cannot hold them. Get the file again");
+    return fail(Code::kDataLoss, fmt::format("{}, header: announces {} in a file of {} bytes, "
+                                             "which cannot hold them. Get the file again",
+                                             name, size, file_size));
   }
   return {};
 }

@@ -1,5 +1,7 @@
 #include "sim/image/texture/paint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -131,7 +133,7 @@ class PaintLoader {
     }
     if (without > 0) {
       warn("uvs_missing_in_part",
-           std::to_string(without) + " triangles have no texture coordinates and stay white",
+           fmt::format("{} triangles have no texture coordinates and stay white", without),
            model_.path.string());
     }
     return {};
@@ -219,9 +221,11 @@ class PaintLoader {
                           const std::string& name) {
     area_px_ += static_cast<std::int64_t>(read.image.texels.size());
     if (area_px_ > kMaxImageArea_px) {
-      return fail(Code::kOutOfRange, name + ": the model's textures together have more than " +
-                                         std::to_string(kMaxImageArea_px / 1'000'000) +
-                                         " million pixels. Scale them down");
+      return fail(
+          Code::kOutOfRange,
+          fmt::format(
+              "{}: the model's textures together have more than {} million pixels. Scale them down",
+              name, kMaxImageArea_px / 1'000'000));
     }
     if (read.had_alpha) {
       warn("alpha_over_white", "the texture is transparent in places; it was laid over white",
@@ -243,14 +247,14 @@ class PaintLoader {
     }
     if (untextured > 0) {
       warn("uvs_missing_in_part",
-           std::to_string(untextured) +
-               " triangles have a textured material but no texture "
-               "coordinates; they take its plain colour instead",
+           fmt::format("{} triangles have a textured material but no texture coordinates; they "
+                       "take its plain colour instead",
+                       untextured),
            model_.path.string());
     }
     if (uncoloured > 0 && uncoloured < model_.triangles.size()) {
       warn("colour_missing_in_part",
-           std::to_string(uncoloured) + " triangles have no colour at all and stay white",
+           fmt::format("{} triangles have no colour at all and stay white", uncoloured),
            model_.path.string());
     }
   }

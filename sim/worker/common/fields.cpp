@@ -1,10 +1,10 @@
 #include "sim/worker/common/fields.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/message.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -20,15 +20,15 @@ Status check_range(const FieldDescriptor& field, double value, Code code) {
   if (!std::isfinite(value)) return fail_field(code, field.name(), "not a finite number");
   const v1::FieldRules* const rules = rules::rules_of(field);
   if (rules == nullptr || rules::is_in_range(*rules, value)) return {};
-  std::ostringstream problem;
-  problem << value << " is out of range. It must be " << rules::range_text(field);
-  return fail_field(code, field.name(), problem.str());
+  return fail_field(
+      code, field.name(),
+      fmt::format("{} is out of range. It must be {}", value, rules::range_text(field)));
 }
 
 Status check_choice(const FieldDescriptor& field, int number) {
   if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
   return fail_field(Code::kInvalidArgument, field.name(),
-                    std::to_string(number) + " is unknown. Use one of the names");
+                    fmt::format("{} is unknown. Use one of the names", number));
 }
 
 Status check_field(const Message& spec, const FieldDescriptor& field) {

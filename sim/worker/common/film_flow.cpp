@@ -1,8 +1,9 @@
 #include "sim/worker/common/film_flow.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "hydroprint/v1/spec.pb.h"
+#include "sim/base/number_text.h"
 #include "sim/worker/common/fields.h"
 
 namespace hydroprint::worker {
@@ -151,11 +152,9 @@ Json DipFindings::figures() const {
 }
 
 std::string DipFindings::summary(const Report& report, const std::filesystem::path& dir) const {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(),
-                "film reaches %.1f %% of the surface, stretched at most %.2f times; %.1f s\n",
-                100 * figures_.coverage, figures_.stretch_max, report.total_s);
-  return artifacts_line(dir, report) + line.data();
+  return fmt::format("{}film reaches {} of the surface, stretched at most {} times; {:.1f} s\n",
+                     artifacts_line(dir, report), percent(figures_.coverage),
+                     three_digits(figures_.stretch_max), report.total_s);
 }
 
 }  // namespace hydroprint::worker

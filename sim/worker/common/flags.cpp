@@ -1,11 +1,11 @@
 #include "sim/worker/common/flags.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/message.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <sstream>
 #include <vector>
 
 #include "hydroprint/v1/spec.pb.h"
@@ -32,10 +32,8 @@ std::vector<std::string> choices(const google::protobuf::EnumDescriptor& type) {
   return names;
 }
 
-std::string join(const std::vector<std::string>& names, const std::string& separator) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : separator) + name;
-  return out;
+std::string join(const std::vector<std::string>& names, std::string_view separator) {
+  return fmt::format("{}", fmt::join(names, separator));
 }
 
 void set_choice(Message& spec, const FieldDescriptor& field, const std::string& text) {
@@ -175,10 +173,6 @@ Status Flags::read_pose() {
   return {};
 }
 
-std::string default_text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
+std::string default_text(double value) { return fmt::format("{}", value); }
 
 }  // namespace hydroprint::worker

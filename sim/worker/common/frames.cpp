@@ -1,5 +1,7 @@
 #include "sim/worker/common/frames.h"
 
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -40,9 +42,8 @@ Result<std::vector<std::filesystem::path>> frames_folders(
                       "no FOLDER/frames.json among them. Name the files of hydroprint-capture");
   }
   if (most > 0 && folders.size() > most) {
-    return fail_field(
-        Code::kInvalidArgument, "frames",
-        std::to_string(folders.size()) + " folders. Give at most " + std::to_string(most));
+    return fail_field(Code::kInvalidArgument, "frames",
+                      fmt::format("{} folders. Give at most {}", folders.size(), most));
   }
   return folders;
 }

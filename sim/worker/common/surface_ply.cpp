@@ -1,5 +1,7 @@
 #include "sim/worker/common/surface_ply.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -31,11 +33,18 @@ std::uint8_t byte(float channel) {
 
 /// @param properties  lines of the header, after x, y, z
 std::string header(std::size_t points, std::size_t triangles, const std::string& properties) {
-  return "ply\nformat binary_little_endian 1.0\ncomment hydroprint " HYDROPRINT_VERSION
-         "\nelement vertex " +
-         std::to_string(points) + "\nproperty double x\nproperty double y\nproperty double z\n" +
-         properties + "element face " + std::to_string(triangles) +
-         "\nproperty list uchar int vertex_indices\nend_header\n";
+  return fmt::format(R"(ply
+format binary_little_endian 1.0
+comment hydroprint {}
+element vertex {}
+property double x
+property double y
+property double z
+{}element face {}
+property list uchar int vertex_indices
+end_header
+)",
+                     HYDROPRINT_VERSION, points, properties, triangles);
 }
 
 Status write(const std::filesystem::path& path, const std::vector<Eigen::Vector3i>& triangles,

@@ -1,8 +1,9 @@
 #include "sim/worker/verbs/calibrate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
@@ -241,16 +242,14 @@ std::string Calibrate::summary(const Report& report, const std::filesystem::path
   const auto& markers = found_.film_frame.markers;
   const auto used =
       std::count_if(markers.begin(), markers.end(), [](const auto& m) { return m.used; });
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(),
-                "used %d of %zu markers; residual of the object's fit %.2f mm (rms), uncertainty "
-                "of the surface %.2f mm (95th percentile)\n",
-                static_cast<int>(used), markers.size(), found_.object.fit.rms_mm,
-                share_of(found_.error_mm, 0.95));
   std::string weak;
   for (const std::string& what : found_.object.weak)
     weak += "taken from the nominal pose: " + what + "\n";
-  return artifacts_line(dir, report) + line.data() + weak;
+  return fmt::format(
+      "{}used {} of {} markers; residual of the object's fit {:.2f} mm (rms), uncertainty of the "
+      "surface {:.2f} mm (95th percentile)\n{}",
+      artifacts_line(dir, report), used, markers.size(), found_.object.fit.rms_mm,
+      share_of(found_.error_mm, 0.95), weak);
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -1,7 +1,7 @@
 #include "sim/worker/verbs/calibrate_camera.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <string>
 #include <utility>
 
@@ -105,13 +105,11 @@ Status CalibrateCamera::compute(OutFolder& folder, Report& report, const Context
 }
 
 std::string CalibrateCamera::summary(const Report& report, const std::filesystem::path& dir) const {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(),
-                "%zu views; focal length %.1f px, depth scale %+.2f %%; residual of the board "
-                "%.2f mm (rms)\n",
-                camera_.views, camera_.lens.fx_px, 100 * (camera_.lens.depth_scale - 1),
-                camera_.rms_mm);
-  return artifacts_line(dir, report) + line.data();
+  return fmt::format(
+      "{}{} views; focal length {:.1f} px, depth scale {:+.2f} %; residual of the board {:.2f} mm "
+      "(rms)\n",
+      artifacts_line(dir, report), camera_.views, camera_.lens.fx_px,
+      100 * (camera_.lens.depth_scale - 1), camera_.rms_mm);
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

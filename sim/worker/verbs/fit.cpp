@@ -1,15 +1,15 @@
 #include "sim/worker/verbs/fit.h"
 
-#include <array>
-#include <charconv>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/artifact_file.h"
+#include "sim/base/number_text.h"
 #include "sim/film/profile.h"
 #include "sim/fit/fit.h"
 #include "sim/fit/residual_picture.h"
@@ -71,11 +71,7 @@ Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inpu
 }
 
 /// The shortest text that reads back as the same number; empty if the number is not finite.
-std::string cell(double value) {
-  if (!std::isfinite(value)) return {};
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
-}
+std::string cell(double value) { return std::isfinite(value) ? shortest_text(value) : ""; }
 
 std::string residuals_csv(const std::vector<fit::PointResult>& points) {
   std::string out =
@@ -168,14 +164,11 @@ Json names_json(const fit::Outcome& outcome) {
 
 /// "drag_length_mm = 60.2  (95 %: 57 to 63.5)"; an infinite drag length means no drag.
 std::string estimate_text(const fit::Estimate& e) {
-  const auto text = [](double value) -> std::string {
-    if (!std::isfinite(value)) return "none";
-    std::array<char, 32> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), "%.5g", value);
-    return buffer.data();
+  const auto text = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.5g}", value) : "none";
   };
-  return e.name + " = " + text(e.value) + "  (95 %: " + text(e.low) +
-         (std::isfinite(e.high) ? " to " + text(e.high) : " or more, or none") + ")\n";
+  return fmt::format("{} = {}  (95 %: {}{})\n", e.name, text(e.value), text(e.low),
+                     std::isfinite(e.high) ? " to " + text(e.high) : " or more, or none");
 }
 
 Json fit_json(const fit::Outcome& outcome, const fit::Options& options) {
@@ -271,13 +264,12 @@ Status Fit::write(const std::filesystem::path& folder) const {
 }
 
 std::string Fit::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
-  std::array<char, 120> rms{};
-  std::snprintf(rms.data(), rms.size(), "residuals %.3f mm (rms), %.3f mm before the fit\n",
-                outcome_.rms_after_mm, outcome_.rms_before_mm);
-  std::string out = dir.string() + "/film_profile.toml: " + rms.data();
+  std::string out =
+      fmt::format("{}/film_profile.toml: residuals {:.3f} mm (rms), {:.3f} mm before the fit\n",
+                  dir.string(), outcome_.rms_after_mm, outcome_.rms_before_mm);
   for (const fit::Estimate& e : outcome_.estimates) out += estimate_text(e);
   for (const fit::Undetermined& u : outcome_.undetermined) {
-    out += u.name + " is not determined: " + u.reason + "\n";
+    out += fmt::format("{} is not determined: {}\n", u.name, u.reason);
   }
   return out;
 }

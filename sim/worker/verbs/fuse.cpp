@@ -1,8 +1,8 @@
 #include "sim/worker/verbs/fuse.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
-#include <array>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -66,10 +66,8 @@ std::string path_csv(const scan::Path& path, const std::vector<double>& times_s)
     if (!path.is_placed[i]) continue;
     const Eigen::Quaterniond q(path.X_WC[i].linear());
     const Eigen::Vector3d p = path.X_WC[i].translation();
-    std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), "%.6f,%.4f,%.4f,%.4f,%.8f,%.8f,%.8f,%.8f\n",
-                  times_s[i] - times_s[0], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
-    out += line.data();
+    out += fmt::format("{:.6f},{:.4f},{:.4f},{:.4f},{:.8f},{:.8f},{:.8f},{:.8f}\n",
+                       times_s[i] - times_s[0], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
   }
   return out;
 }
@@ -174,13 +172,11 @@ Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) 
 }
 
 std::string Fuse::summary(const Report& report, const std::filesystem::path& dir) const {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(),
-                "%zu frames, %zu of them not registered; after smoothing they lie %.2f mm (rms) "
-                "from the surface of %zu triangles\n",
-                swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
-                swept_.mesh.triangles.size());
-  return artifacts_line(dir, report) + line.data();
+  return fmt::format(
+      "{}{} frames, {} of them not registered; after smoothing they lie {:.2f} mm (rms) from the "
+      "surface of {} triangles\n",
+      artifacts_line(dir, report), swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
+      swept_.mesh.triangles.size());
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -1,8 +1,9 @@
 #include "sim/worker/verbs/print_image.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -118,7 +119,8 @@ std::vector<Format> formats_of(const PrintImageOptions& options, bool cmyk) {
 
 /// "print.png" for a single sheet; "print-1.png" and so on for several.
 std::string sheet_name(std::size_t index, std::size_t sheets, const char* extension) {
-  return "print" + (sheets > 1 ? "-" + std::to_string(index + 1) : std::string()) + extension;
+  return sheets > 1 ? fmt::format("print-{}{}", index + 1, extension)
+                    : fmt::format("print{}", extension);
 }
 
 Status write_sheets(const print::Print& print, Format format, const std::filesystem::path& folder,
@@ -258,12 +260,9 @@ Status PrintImage::compute(OutFolder& folder, Report& report, const Context& con
 std::string PrintImage::summary(const Report& report, const std::filesystem::path& dir) const {
   const std::size_t sheets = print_.layout.sheets.size();
   const Eigen::Vector2d& size = print_.layout.sheets.front().size_mm;
-  std::array<char, 160> line{};
-  std::snprintf(
-      line.data(), line.size(),
-      "%zu sheet%s of %g x %g mm at %g dpi; print at 100 %%, without fitting to the page\n", sheets,
-      sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
-  return artifacts_line(dir, report) + line.data();
+  return fmt::format(
+      "{}{} sheet{} of {:g} x {:g} mm at {:g} dpi; print at 100 %, without fitting to the page\n",
+      artifacts_line(dir, report), sheets, sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -1,5 +1,7 @@
 #include "sim/worker/verbs/simulate.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -46,10 +48,10 @@ Status check_film_image(const film::Outline& outline, double dpi) {
   const double pixels = static_cast<double>(grid.columns) * grid.rows;
   if (pixels <= image::kMaxFilmImage_px) return {};
   const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
-  return fail_field(Code::kOutOfRange, "dpi",
-                    "the film image would have " + std::to_string(grid.columns) + " x " +
-                        std::to_string(grid.rows) + " pixels. Use at most " +
-                        std::to_string(most_dpi) + " for this film");
+  return fail_field(
+      Code::kOutOfRange, "dpi",
+      fmt::format("the film image would have {} x {} pixels. Use at most {} for this film",
+                  grid.columns, grid.rows, most_dpi));
 }
 
 class Simulate final : public ArtifactTask {

@@ -1,7 +1,7 @@
 #include "sim/worker/verbs/template.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <limits>
 #include <utility>
 
@@ -118,12 +118,9 @@ Status Template::compute(OutFolder& folder, Report& report, const Context& conte
 }
 
 std::string Template::summary(const Report& report, const std::filesystem::path& dir) const {
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(),
-                "first contact near x %.2f, y %.2f mm; print at 100 %%, without fitting to the "
-                "page\n",
-                placement_.contact_mm.x(), placement_.contact_mm.y());
-  return artifacts_line(dir, report) + line.data();
+  return fmt::format(
+      "{}first contact near x {:.2f}, y {:.2f} mm; print at 100 %, without fitting to the page\n",
+      artifacts_line(dir, report), placement_.contact_mm.x(), placement_.contact_mm.y());
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -1,5 +1,7 @@
 #include "sim/worker/verbs/validate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -134,14 +136,14 @@ Status Validate::compute(OutFolder& folder, Report& report, const Context& conte
 }
 
 std::string Validate::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
-  std::string out = dir.string() + "/report.html: " + std::to_string(validation_.passed) + " of " +
-                    std::to_string(validation_.passed + validation_.failed) +
-                    " figures are within their limits\n";
+  std::string out =
+      fmt::format("{}/report.html: {} of {} figures are within their limits\n", dir.string(),
+                  validation_.passed, validation_.passed + validation_.failed);
   for (const validate::Experiment& e : validation_.experiments) {
     for (const validate::Figure& f : e.figures) {
       if (f.passes()) continue;
-      out += e.name + ": " + f.text + ": " + validate::text_of(f.value, 3) +
-             (f.unit.empty() ? "" : " " + f.unit) + ", not " + validate::limit_text(f) + "\n";
+      out += fmt::format("{}: {}: {}{}, not {}\n", e.name, f.text, validate::text_of(f.value, 3),
+                         f.unit.empty() ? "" : " " + f.unit, validate::limit_text(f));
     }
   }
   return out;
