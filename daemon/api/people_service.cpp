@@ -281,7 +281,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status link(const v1::CreateSignInLinkRequest& request, v1::SignInLink& reply) {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.name()));
-    HP_ASSIGN_OR_RETURN(const auto new_key, backend_.accounts.sessions().make_link(name));
+    HP_ASSIGN_OR_RETURN(const auto token_and_expiry, backend_.accounts.sessions().make_link(name));
     reply.set_token(token_and_expiry.first);
     *reply.mutable_expire_time() = time_of(token_and_expiry.second);
     return {};
