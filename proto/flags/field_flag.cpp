@@ -70,19 +70,25 @@ std::string alternatives(const std::vector<std::string>& names) {
   return out;
 }
 
+// Its name in help texts is "{sheet,stokes}", as that of CLI::IsMember, which completion scripts
+// use.
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  const auto check = [names](const std::string& text) {
+    const bool is_known = std::find(names.begin(), names.end(), text) != names.end();
+    return is_known ? std::string() : "'" + text + "' is unknown. Use " + alternatives(names);
+  };
+  return {check, "{" + CLI::detail::join(names, ",") + "}"};
+}
+
 // The choices are in the order of the enum after its zero value, which has no name here.
 CLI::Option* add_choice(CLI::App& command, Message& spec, const FieldDescriptor& field) {
   const auto names = rules::choices(field);
   const auto take = [&spec, &field, names](const std::string& text) {
-    const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end()) {
-      throw CLI::ValidationError(flag_of(field),
-                                 "'" + text + "' is unknown. Use " + alternatives(names));
-    }
-    const int index = static_cast<int>(found - names.begin()) + 1;
-    spec.GetReflection()->SetEnum(&spec, &field, field.enum_type()->value(index));
+    const auto index = std::find(names.begin(), names.end(), text) - names.begin();
+    const auto* value = field.enum_type()->value(static_cast<int>(index) + 1);
+    spec.GetReflection()->SetEnum(&spec, &field, value);
   };
-  return command.add_option_function<std::string>(flag_of(field), take);
+  return command.add_option_function<std::string>(flag_of(field), take)->check(one_of(names));
 }
 
 CLI::Option* add_switch(CLI::App& command, Message& spec, const FieldDescriptor& field) {

@@ -408,7 +408,7 @@ TEST(PeopleFirst, RequiredAccountsStartWithTheFirstLink) {
   v1::WhoAmIResponse who;
   expect_refusal(client.people->WhoAmI(client.context().get(), {}, &who),
                  StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
-  const std::string words = content(folder.path() / "out");
+  const std::string words = daemon.printed();
   const std::size_t from = words.find("/sign-in#") + 9;
   v1::SignInRequest request;
   request.set_link_token(words.substr(from, words.find('\n', from) - from));

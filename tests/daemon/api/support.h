@@ -92,6 +92,8 @@ class DaemonProcess {
   [[nodiscard]] std::filesystem::path config() const { return folder_ / "hydroprintd.toml"; }
   /// The daemon's log.
   [[nodiscard]] std::string log() const;
+  /// Everything on stdout since the last start.
+  [[nodiscard]] std::string printed() const { return process_->out(); }
   /// Running processes that the daemon started. Needs /proc.
   [[nodiscard]] std::vector<pid_t> workers() const;
 

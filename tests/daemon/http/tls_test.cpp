@@ -36,7 +36,7 @@ class Tls : public ::testing::Test {
   [[nodiscard]] HttpConnection connect() const {
     return HttpConnection(daemon.http(), 0, authority.pem());
   }
-  [[nodiscard]] std::string said() const { return content(folder.path() / "out"); }
+  [[nodiscard]] std::string said() const { return daemon.printed(); }
   [[nodiscard]] std::string grpc_address() const {
     return "localhost" + daemon.address().substr(daemon.address().rfind(':'));
   }

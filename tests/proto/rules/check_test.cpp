@@ -90,6 +90,7 @@ TEST(Check, BoundsBelongToTheRangeUnlessTheyAreExcluded) {
     EXPECT_EQ(wrong_field(spec), "dpi") << dpi;
   }
   v1::PrintImageSpec print;
+  print.mutable_film_image()->set_name("film.png");
   print.set_ink_limit(4);
   EXPECT_EQ(wrong_field(print), "");
   print.set_ink_limit(std::numeric_limits<double>::min());
@@ -143,6 +144,7 @@ TEST(Check, ARequiredFieldMayBeMissingIfItsAlternativeIsSet) {
 
 TEST(Check, TextsAreShortAndWithoutControlCharacters) {
   v1::PrintImageSpec spec;
+  spec.mutable_film_image()->set_name("film.png");
   spec.set_job_name(std::string(200, 'x'));
   EXPECT_EQ(wrong_field(spec), "");
   spec.set_job_name(std::string(201, 'x'));

@@ -128,10 +128,12 @@ TEST_F(Worker, OutOfMemoryIsAnOrdinaryErrorWithAdviceForTheVerb) {
             std::string::npos)
       << ended.err;
   EXPECT_EQ(names_in(folder.path()), before);
-  const Ended preview = testing::run({"preview", "--mesh", path("big.obj")}, options);
-  EXPECT_NE(preview.err.find("out of memory. Use a smaller model or more memory"),
-            std::string::npos)
-      << preview.err;
+  options.limits = {{RLIMIT_AS, rlim_t{400} << 20}};
+  const Ended page = testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "template", "--mesh",
+                                   path("big.obj"), "--out", out()},
+                                  options);
+  EXPECT_NE(page.err.find("out of memory. Use a smaller model or more memory"), std::string::npos)
+      << page.err;
 }
 
 }  // namespace
