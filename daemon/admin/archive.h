@@ -13,7 +13,7 @@
 
 namespace hydroprint::admin {
 
-/// Writes a tar archive with access for its user only. An unfinished archive is deleted.
+/// Writes a tar archive that only its owner can read. An unfinished archive is deleted.
 class ArchiveWriter {
  public:
   /// Creates the file under a temporary name; finish() renames it.

@@ -32,7 +32,8 @@ constexpr milliseconds kFlushInterval{250};
 constexpr std::chrono::seconds kStoreAgainAfter{1};
 // Timeout for reaching standstill after the computed end of the motion.
 constexpr double kRestMargin_s = 1;
-constexpr std::size_t kMostSamples = 500'000;  // samples of the descent kept for its speed
+constexpr std::size_t kMostSamples =
+    500'000;  // maximum number of descent samples, from which the speed is computed
 constexpr std::size_t kLargestRecord = 16 << 20;
 
 JobState job_state(const dip::Stand& stand) {

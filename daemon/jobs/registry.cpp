@@ -1,5 +1,7 @@
 #include "daemon/jobs/registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "daemon/platform/resource_names.h"
@@ -41,7 +43,9 @@ Result<const JobKind*> kind_of(const Job& job) {
   const JobKind* const kind =
       find_kind([&](const JobKind* candidate) { return candidate->name() == name; });
   if (kind != nullptr) return kind;
-  return fail(Code::kInternal, job_name(job.id) + ": this daemon has no jobs of kind " + name,
+  return fail(Code::kInternal,
+              fmt::format("{}: unknown job kind \"{}\"; was it stored by another version?",
+                          job_name(job.id), name),
               "STORE_FAILED");
 }
 

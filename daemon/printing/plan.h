@@ -28,7 +28,8 @@ struct PrintPlan {
 [[nodiscard]] Status read_printed_pages(const std::string& report, PrintPlan& plan);
 
 /// Creates the plan of a spec.
-/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed, or
+/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if the print-image job did not
+/// succeed, or
 ///         has no PDF or no usable report
 [[nodiscard]] Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs,
                                               const Layout& layout);

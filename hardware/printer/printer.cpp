@@ -111,6 +111,13 @@ bool is_about_format(ipp_t* reply) {
   return std::find(names.begin(), names.end(), "document-format") != names.end();
 }
 
+tl::unexpected<Error> incomplete(const Address& address, const std::string& what) {
+  return fail(
+      Code::kFailedPrecondition,
+      fmt::format("printer {}: its reply lacks {}. Check the printer's display", address.uri, what),
+      "PRINTER_REFUSED");
+}
+
 tl::unexpected<Error> refused(const Address& address, const std::string& what, ipp_t* reply) {
   const ipp_status_t status = ippGetStatusCode(reply);
   const std::string message = text(reply, "status-message");
@@ -250,7 +257,7 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
   }
   if (!is_ok(reply->get())) return refused(address_, job.format, reply->get());
   const auto id = number(reply->get(), "job-id", IPP_TAG_INTEGER);
-  if (!id) return refused(address_, "to report the job number", reply->get());
+  if (!id) return incomplete(address_, "the job's number");
   return Submitted{*id, ignored(reply->get())};
 }
 
@@ -264,8 +271,7 @@ Result<JobReport> Printer::job(int id) const {
     return refused(address_, fmt::format("to report job {}", id), reply.get());
   }
   const auto state = number(reply.get(), "job-state", IPP_TAG_ENUM);
-  if (!state)
-    return refused(address_, fmt::format("to report the state of job {}", id), reply.get());
+  if (!state) return incomplete(address_, fmt::format("the state of job {}", id));
   return JobReport{id,
                    job_state(*state),
                    reasons(reply.get(), "job-state-reasons"),

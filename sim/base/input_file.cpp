@@ -5,6 +5,8 @@
 #include <array>
 #include <system_error>
 
+#include "sim/base/number_text.h"
+
 namespace hydroprint {
 
 Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
@@ -38,8 +40,9 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::size_
     return fail(Code::kDataLoss, path.string() + ": reading failed. Check the disk");
   }
   if (text.size() > max_bytes) {
-    return fail(Code::kOutOfRange, fmt::format("{}: larger than {} bytes. Is it the right file?",
-                                               path.string(), max_bytes));
+    return fail(Code::kOutOfRange,
+                fmt::format("{}: larger than {}. Check that it is the right file", path.string(),
+                            format_bytes(static_cast<std::int64_t>(max_bytes))));
   }
   return text;
 }

@@ -17,7 +17,7 @@ struct Frames {
   scan::Lens nominal_lens;
 };
 
-/// Maximum number of frames used from a folder: 10 s.
+/// Maximum number of frames used from a folder: 10 s at 30 frames/s.
 inline constexpr std::size_t kMostFrames = 300;
 
 /// Reads the first `most` frames of a folder written by hydroprint-capture: frames.json and 16-bit

@@ -22,7 +22,7 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kSettledShare = 0.05;  ///< last step, as a fraction of the uncertainty
 constexpr double kMostStep = 1;
 
-/// Returns the mean squares of both, over the rows that are NaN in neither.
+/// Returns the mean squares of `a` and `b` over the rows in which neither is NaN.
 std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   double sum_a = 0, sum_b = 0;
   Index count = 0;

@@ -68,13 +68,15 @@ Status check_enough(const std::vector<PointResult>& points, const std::string& n
   const auto used =
       std::count_if(points.begin(), points.end(), [](const PointResult& p) { return p.is_used(); });
   std::string what = fmt::format(
-      "{}: {} of {} points can be used, at {} places 1 mm apart on the film, which is too few",
+      "{}: too few points: {} of {} can be used, and only {} of them are at least 1 mm apart on "
+      "the "
+      "film",
       name, used, points.size(), found);
   if (const std::string why = main_reason(points); !why.empty()) {
     what += " (most of the others: " + why + ")";
   }
   return fail(Code::kInvalidArgument,
-              what + ". Measure at least 4 points, preferably dozens, all over the printed part",
+              what + ". Measure at least 4 points, preferably dozens, spread over the printed part",
               "TOO_FEW_POINTS");
 }
 

@@ -18,8 +18,10 @@ Status check_frames(std::span<const DepthFrame> frames) {
     if (frame.width_px <= 0 || frame.width_px != first.width_px ||
         frame.height_px != first.height_px ||
         frame.depth_mm.size() != frame.index(0, frame.height_px))
-      return fail(Code::kInvalidArgument,
-                  fmt::format("depth frame {} differs in size. Record again with one setting", i));
+      return fail(
+          Code::kInvalidArgument,
+          fmt::format(
+              "depth frame {} has a different size. Record all frames in the same camera mode", i));
   }
   const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
   if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black

@@ -32,7 +32,7 @@ struct DepthCounts {
 };
 
 /// Finds the steps that explain every frequently reported depth to within half a mm. Only the true
-/// steps also explain all depths that never occur. The scale is searched within 5 % of a
+/// steps also explain why the other depths never occur. The scale is searched within 5 % of a
 /// first-generation Kinect's (Konolige and Mihelich, Technical description of Kinect calibration,
 /// 2011). Rounding depends only on depth, so averaging over frames or neighbours does not remove
 /// its error. Where the steps are close to whole mm, the error is the same over several cm.

@@ -160,10 +160,11 @@ Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const
       for (const double z : {depth_mm - beyond, depth_mm, depth_mm + beyond})
         mark(X_WC * (z * optics.rays[i]));
       if (blocks_.size() > options_.most_blocks)
-        return fail(Code::kResourceExhausted,
-                    fmt::format("the scan is larger than {} blocks of voxels. Keep the camera on "
-                                "the rig, or use larger voxels",
-                                options_.most_blocks));
+        return fail(
+            Code::kResourceExhausted,
+            fmt::format("the scan is larger than {} blocks of voxels. Keep the camera pointed at "
+                        "the rig, or use larger voxels",
+                        options_.most_blocks));
     }
   }
   return {};

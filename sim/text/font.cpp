@@ -44,7 +44,7 @@ struct Font::Impl {
   }
   [[nodiscard]] double em() const { return face->units_per_EM; }
 
-  /// Returns an outline in the font's units; empty if it cannot be loaded. The mutex must be
+  /// Returns a glyph's outline in font units; nullptr if it cannot be loaded. The mutex must be
   /// locked.
   [[nodiscard]] FT_Outline* outline(std::uint32_t glyph) {
     if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING) != 0) return nullptr;

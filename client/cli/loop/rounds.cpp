@@ -193,7 +193,7 @@ Result<loop::SurfaceMap> LoopRounds::predict(v1::PredictSpec spec, const Pose& p
   return loop::read_surface_map(file(map));
 }
 
-/// Returns the actual motion of the descent, along its true direction.
+/// Converts the measured positions of the descent to a motion file along the axis's true direction.
 Result<v1::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string positions, fetch(dip, "positions.csv", "positions", out));
   std::ifstream from(file(positions));

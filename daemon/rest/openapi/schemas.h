@@ -27,8 +27,8 @@ class Schemas {
   /// If the directions differ, the schemas are "Job" for responses and "JobInput" for requests.
   nlohmann::ordered_json reference(const google::protobuf::Descriptor& message, Way way);
 
-  /// Same as above, without the given fields, which are in the path. The schema is separate, under
-  /// the message's name.
+  /// Returns the same for a request whose path contains the given fields, which the schema omits.
+  /// It replaces a schema that is stored under the message's name.
   nlohmann::ordered_json reference_without(const google::protobuf::Descriptor& message,
                                            const std::set<std::string>& fields);
 

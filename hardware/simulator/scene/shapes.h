@@ -23,8 +23,8 @@ inline constexpr double kMarkerHeight_mm = 40;
 /// Merges meshes into one.
 [[nodiscard]] Mesh joined(const std::vector<Mesh>& meshes);
 
-/// Returns the visible mesh of a marker, F: the pyramid, the pyramid on its side, or a box that
-/// covers it.
+/// Returns the visible mesh of a marker in frame F: the pyramid, the pyramid on its side, or a box
+/// that covers it.
 [[nodiscard]] Mesh marker_mesh(const Marker& marker, MarkerState state);
 
 }  // namespace hydroprint::simulated_scene

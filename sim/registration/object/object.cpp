@@ -222,7 +222,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   const auto& points = found.all;
   if (points.size() < kFewestPoints)
     return fail(Code::kFailedPrecondition,
-                "no object is in view above the water. Hang it there, or raise it", "NO_OBJECT");
+                "no object is in view above the water. Mount the object, or raise it", "NO_OBJECT");
   const Shape shape(task.surface);
   HP_RETURN_IF_ERROR(check_size(shape, std::span(points).first(found.largest)));
   const Pose nominal_CO = film_frame.X_CF() * task.nominal_FO;

@@ -125,7 +125,8 @@ Status read_request(const std::string& line, const pipeline::DipOptions& otherwi
                     Request& request) {
   const auto json = parse_json(line).value_or(nullptr);
   if (!json.is_object()) {
-    return fail(Code::kInvalidArgument, "not a JSON object. Write each request as one on one line");
+    return fail(Code::kInvalidArgument,
+                "not a JSON object. Write each request as a JSON object on a line of its own");
   }
   request.dip = otherwise;
   const auto id = json_unsigned(json, "id");

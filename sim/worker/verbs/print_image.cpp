@@ -36,7 +36,7 @@ Examples:
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
 
-/// Files that print-image writes.
+/// File formats that print-image can write.
 enum class Format { kPdf, kPng, kTiff };
 
 struct PrintImageOptions {

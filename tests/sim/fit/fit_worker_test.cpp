@@ -239,7 +239,7 @@ TEST_F(FitWorker, BadPointsAreRefusedByLineWithARemedy) {
       {header + "1,2,3,4,5\n1,2,x,4,5\n", "bad.csv: line 3: not 5 finite numbers: X_mm is 'x'"},
       {"", "bad.csv: line 1: not the header"},
       {header, "bad.csv: line 2: no points"},
-      {header + "0,0,0,0,-12\n", "bad.csv: 1 of 1 points can be used"},
+      {header + "0,0,0,0,-12\n", "bad.csv: too few points: 1 of 1 can be used"},
       {header + "0,0,0,0,-120\n", "more than 1 mm off the object's surface"},
   };
   for (const auto& [csv, words] : files) {

@@ -19,7 +19,7 @@ TEST(Selection, FourPlacesAreEnoughAndManyPointsOnOneSpotAreNot) {
   points.back().left_out = "it fell off";
   const auto three = check_enough(points, "measured.csv");
   ASSERT_FALSE(three);
-  EXPECT_TRUE(three.error().message.starts_with("measured.csv: 3 of 4 points can be used"))
+  EXPECT_TRUE(three.error().message.starts_with("measured.csv: too few points: 3 of 4 can be used"))
       << three.error().message;
   EXPECT_NE(three.error().message.find("it fell off"), std::string::npos);
   EXPECT_NE(three.error().message.find("Measure at least 4"), std::string::npos);

@@ -36,7 +36,7 @@ export interface Box {
 /** Returns the bounding box. Throws a Refusal if there are no triangles or if a vertex is missing or not finite. */
 export function boxOf(mesh: Mesh): Box {
   if (mesh.indices.length === 0)
-    throw new Refusal('the model has no faces', 'Export the surface, not points or curves');
+    throw new Refusal('the model has no faces', 'Export the model as a mesh, not points or curves');
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
   for (const index of mesh.indices) {

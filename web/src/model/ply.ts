@@ -152,7 +152,7 @@ class Binary {
 export function trianglesOf(elements: Map<string, PlyElement>): Uint32Array {
   const face = elements.get('face');
   const list = face?.lists.get('vertex_indices') ?? face?.lists.get('vertex_index');
-  if (!list) throw new Refusal('the file has points, but no faces', 'Export the surface');
+  if (!list) throw new Refusal('the file has points, but no faces', 'Export the model as a mesh');
   const out: number[] = [];
   let at = 0;
   for (const length of list.lengths) {
@@ -179,7 +179,7 @@ export function readPlyMesh(bytes: ArrayBuffer): Mesh {
   const elements = readPly(bytes);
   const vertex = elements.get('vertex');
   const positions = vertex && columnsOf(vertex, ['x', 'y', 'z']);
-  if (!vertex || !positions) throw new Refusal('the file has no vertices', 'Export the surface');
+  if (!vertex || !positions) throw new Refusal('the file has no vertices', 'Export the model as a mesh');
   const uvs =
     columnsOf(vertex, ['u', 'v']) ??
     columnsOf(vertex, ['s', 't']) ??
