@@ -179,7 +179,8 @@ export function readPlyMesh(bytes: ArrayBuffer): Mesh {
   const elements = readPly(bytes);
   const vertex = elements.get('vertex');
   const positions = vertex && columnsOf(vertex, ['x', 'y', 'z']);
-  if (!vertex || !positions) throw new Refusal('the file has no vertices', 'Export the model as a mesh');
+  if (!vertex || !positions)
+    throw new Refusal('the file has no vertices', 'Export the model as a mesh');
   const uvs =
     columnsOf(vertex, ['u', 'v']) ??
     columnsOf(vertex, ['s', 't']) ??
