@@ -9,7 +9,7 @@
 
 namespace hydroprint::client {
 
-/// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if there is no holder.
+/// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if nobody holds it.
 [[nodiscard]] Result<v1::Lease> get_lease(Connection& connection);
 
 /// Acquires the lease if it is free.

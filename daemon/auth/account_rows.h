@@ -17,7 +17,7 @@ struct AccountRows {
 
   /// Reads all rows.
   [[nodiscard]] Status load();
-  /// The user with that name; null if there is none or the user is disabled. Hold `memory`.
+  /// Returns the user with that name; null for an unknown or disabled user. Hold `memory`.
   [[nodiscard]] const User* admitted(const std::string& name) const;
 
   daemon::Database& database;

@@ -31,8 +31,8 @@ class Accounts {
   [[nodiscard]] ApiKeys& keys() { return keys_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
 
-  /// Whether some active admin can sign in: has a password, an admin's API key, an unused link or a
-  /// session. Reads the store.
+  /// Returns whether an active admin can sign in: has a password, an admin's API key, an unused
+  /// link or a session. Reads the store.
   [[nodiscard]] Result<bool> has_admin_who_can_sign_in();
   /// Reads the changes made by another program (external_changes.h).
   [[nodiscard]] Status reload() { return rows_.load(); }

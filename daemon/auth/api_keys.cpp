@@ -39,27 +39,27 @@ std::optional<Caller> ApiKeys::caller(std::string_view key, bool is_use) {
   return Caller{user->name, std::min(user->role, held.role), "key " + held.id, "", true};
 }
 
-Result<std::pair<ApiKey, std::string>> ApiKeys::create(const NewKey& made) {
-  if (made.display_name.size() > kLongestKeyName || has_control_characters(made.display_name)) {
+Result<std::pair<ApiKey, std::string>> ApiKeys::create(const NewKey& fields) {
+  if (fields.display_name.size() > kLongestKeyName || has_control_characters(fields.display_name)) {
     return fail(Code::kInvalidArgument,
                 "display_name: must be at most 100 bytes without control characters",
                 "SPEC_INVALID");
   }
   const std::lock_guard writing(rows_.writing);
-  HP_RETURN_IF_ERROR(users_.get(made.user));
-  if (list(made.user, "", most_).size() >= most_) {
+  HP_RETURN_IF_ERROR(users_.get(fields.user));
+  if (list(fields.user, "", most_).size() >= most_) {
     return fail(Code::kResourceExhausted,
-                "users/" + made.user + ": too many API keys; delete some first", "KEYS_FULL");
+                "users/" + fields.user + ": too many API keys; delete some first", "KEYS_FULL");
   }
   const std::int64_t now_ms = clock_();
   const std::string secret = random_hex(kKeySecretBytes);
   const ApiKey key{random_hex(kKeyIdBytes),
-                   made.user,
-                   made.display_name,
+                   fields.user,
+                   fields.display_name,
                    sha256(secret),
-                   made.role,
+                   fields.role,
                    now_ms,
-                   made.ttl_ms == 0 ? 0 : now_ms + made.ttl_ms,
+                   fields.ttl_ms == 0 ? 0 : now_ms + fields.ttl_ms,
                    0};
   HP_RETURN_IF_ERROR(rows_.database.run(
       "INSERT INTO api_keys(id, user, display_name, secret_hash, role, create_ms, expire_ms, "

@@ -26,16 +26,17 @@ class ApiKeys {
   ApiKeys(AccountRows& rows, const Users& users, std::size_t most, daemon::Clock clock)
       : rows_(rows), users_(users), most_(most), clock_(std::move(clock)) {}
 
-  /// The caller with this key ("hp_ID_SECRET"); nullopt if the key is not valid. Never waits.
+  /// Returns the caller with this key ("hp_ID_SECRET"); nullopt if the key is not valid. Never
+  /// waits.
   /// @param is_use  whether this counts as a use of the key
   [[nodiscard]] std::optional<Caller> caller(std::string_view key, bool is_use = true);
-  /// Creates a key and returns it with "hp_ID_SECRET", which is shown only once. KEYS_FULL;
-  /// SPEC_INVALID; USER_NOT_FOUND
-  [[nodiscard]] Result<std::pair<ApiKey, std::string>> create(const NewKey& made);
-  /// Keys of a user, or of all users (empty), sorted by id, after `after`.
+  /// Creates a key and returns it with "hp_ID_SECRET", which is shown only once.
+  /// Errors: KEYS_FULL, SPEC_INVALID, USER_NOT_FOUND.
+  [[nodiscard]] Result<std::pair<ApiKey, std::string>> create(const NewKey& fields);
+  /// Returns the keys of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<ApiKey> list(const std::string& user, const std::string& after,
                                          std::size_t limit) const;
-  /// The key with this id. Errors: KEY_NOT_FOUND.
+  /// Returns the key with this id. Errors: KEY_NOT_FOUND.
   [[nodiscard]] Result<ApiKey> get(const std::string& id) const;
   /// Deletes a key; no error if it does not exist.
   [[nodiscard]] Status remove(const std::string& id);

@@ -40,7 +40,7 @@ class Sessions {
         clock_(clock),
         attempts_(clock) {}
 
-  /// The caller with this session token; nullopt if it is not valid. Never waits.
+  /// Returns the caller with this session token; nullopt if it is not valid. Never waits.
   /// @param is_use  whether this counts as a use of the session
   [[nodiscard]] std::optional<Caller> caller(std::string_view token, bool is_use = true);
   /// Checks a user's password. Attempts are limited like sign-in attempts.
@@ -51,29 +51,29 @@ class Sessions {
   [[nodiscard]] Result<SignedIn> sign_in(const std::string& name, const std::string& password,
                                          const std::string& peer);
   /// Creates a sign-in link and returns its token and expiry time. The user's earlier links become
-  /// invalid. USER_NOT_FOUND
+  /// invalid. Errors: USER_NOT_FOUND.
   [[nodiscard]] Result<std::pair<std::string, std::int64_t>> make_link(const std::string& name);
   /// Starts a session with a link's token. Errors as in check_password().
   [[nodiscard]] Result<SignedIn> sign_in_by_link(const std::string& token, const std::string& peer);
-  /// Number of failed sign-in attempts since the daemon started.
+  /// Returns the number of failed sign-in attempts since the daemon started.
   [[nodiscard]] std::int64_t failed_attempts() const { return attempts_.failures(); }
 
-  /// Valid sessions of a user, or of all users (empty), sorted by id, after `after`.
+  /// Returns the valid sessions of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<Session> list(const std::string& user, const std::string& after,
                                           std::size_t limit) const;
-  /// The session with this id. Errors: SESSION_NOT_FOUND.
+  /// Returns the session with this id. Errors: SESSION_NOT_FOUND.
   [[nodiscard]] Result<Session> get(const std::string& id) const;
   /// Ends a session; no error if it has already ended.
   [[nodiscard]] Status end(const std::string& id);
   /// Ends all sessions that are no longer valid.
   [[nodiscard]] Status end_expired();
-  /// Whether a session is still valid.
+  /// Returns whether a session is still valid.
   [[nodiscard]] bool is_valid(const Session& session) const;
-  /// The time at which the session ends even if it is in use.
+  /// Returns the time at which the session ends even if it is in use.
   [[nodiscard]] std::int64_t most_ms(const Session& session) const {
     return session.create_ms + options_.most_ms;
   }
-  /// The time at which the session ends if it is not used.
+  /// Returns the time at which the session ends if it is not used.
   [[nodiscard]] std::int64_t expire_ms(const Session& session) const;
 
  private:

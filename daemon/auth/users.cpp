@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMostUsers = 10000;
 
 tl::unexpected<Error> no_such_user(const std::string& name) {
-  return fail(Code::kNotFound, "users/" + name + ": there is no such user", "USER_NOT_FOUND");
+  return fail(Code::kNotFound, "users/" + name + ": unknown user", "USER_NOT_FOUND");
 }
 
 bool is_active_admin(const User& user) { return user.role == Role::kAdmin && !user.disabled; }
@@ -103,26 +103,27 @@ Status Users::check_name_is_free(const std::string& name) {
 
 Result<User> Users::create(const User& user, const std::string& password, bool returns) {
   HP_RETURN_IF_ERROR(check_user_name("user.name", user.name));
-  User made = user;
-  made.password.clear();
+  User created = user;
+  created.password.clear();
   if (!password.empty()) {
     HP_RETURN_IF_ERROR(check_password_length(password));
-    HP_ASSIGN_OR_RETURN(made.password, passwords_.hash(password));
+    HP_ASSIGN_OR_RETURN(created.password, passwords_.hash(password));
   }
   const std::lock_guard writing(rows_.writing);
-  if (get(made.name)) {
-    return fail(Code::kAlreadyExists,
-                "users/" + made.name + ": already exists; choose another name, or change that user",
-                "USER_EXISTS");
+  if (get(created.name)) {
+    return fail(
+        Code::kAlreadyExists,
+        "users/" + created.name + ": already exists; choose another name, or change that user",
+        "USER_EXISTS");
   }
-  HP_RETURN_IF_ERROR(check_admin_without(made.name, &made));
-  if (!returns) HP_RETURN_IF_ERROR(check_name_is_free(made.name));
+  HP_RETURN_IF_ERROR(check_admin_without(created.name, &created));
+  if (!returns) HP_RETURN_IF_ERROR(check_name_is_free(created.name));
   if (list("", kMostUsers).size() >= kMostUsers) {
     return fail(Code::kResourceExhausted, "too many users; delete some", "KEYS_FULL");
   }
-  made.create_ms = clock_();
-  HP_RETURN_IF_ERROR(write(made));
-  return made;
+  created.create_ms = clock_();
+  HP_RETURN_IF_ERROR(write(created));
+  return created;
 }
 
 Result<User> Users::changed(const std::string& name, const std::function<void(User&)>& change) {

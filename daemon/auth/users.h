@@ -19,24 +19,25 @@ struct UserChange {
 
 /// The users. Thread-safe.
 ///
-/// Methods that name a user return kNotFound, USER_NOT_FOUND if there is none. Disk errors are as
-/// in Database::run().
+/// Methods that name a user return kNotFound, USER_NOT_FOUND for an unknown name, and the disk
+/// errors of Database::run().
 class Users {
  public:
   Users(AccountRows& rows, Passwords& passwords, daemon::Clock clock)
       : rows_(rows), passwords_(passwords), clock_(std::move(clock)) {}
 
-  /// Whether there are any users.
+  /// Returns whether there are any users.
   [[nodiscard]] bool any() const;
   [[nodiscard]] Result<User> get(const std::string& name) const;
-  /// Users whose names follow `after`, sorted by name.
+  /// Returns the users whose names follow `after`, sorted by name.
   [[nodiscard]] std::vector<User> list(const std::string& after, std::size_t limit) const;
-  /// @param password  empty: none
+  /// Creates a user.
+  /// @param password  empty: the user cannot sign in with a password
   /// @param returns   whether this is the earlier user of that name, who gets back the data stored
   /// under it
-  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and the new user is not
-  /// one; kFailedPrecondition, USER_NAME_USED if a deleted user had the name and jobs, assets,
-  /// calibrations or the audit log still refer to it
+  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if the first user is not an admin;
+  /// kFailedPrecondition, USER_NAME_USED if jobs, assets, calibrations or the audit log still refer
+  /// to a deleted user of that name
   [[nodiscard]] Result<User> create(const User& user, const std::string& password,
                                     bool returns = false);
   /// Changes a user. Errors: LAST_ADMIN.
@@ -60,7 +61,7 @@ class Users {
   daemon::Clock clock_;
 };
 
-/// Refuses (SPEC_INVALID, or ID_INVALID for `field` "name") an invalid user name.
+/// Returns SPEC_INVALID for an invalid user name (ID_INVALID if `field` is "name").
 [[nodiscard]] Status check_user_name(const std::string& field, const std::string& name);
 
 }  // namespace hydroprint::auth

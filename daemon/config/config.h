@@ -65,7 +65,7 @@ struct Config {
 [[nodiscard]] std::vector<std::string> config_keys();
 
 /// Reads and checks a TOML file; missing keys keep their defaults.
-/// @return kNotFound if there is no such file; kInvalidArgument, as one line with file, line and
+/// @return kNotFound if the file does not exist; kInvalidArgument, as one line with file, line and
 ///         remedy, for invalid TOML, an unknown key, a wrong type or a value out of range
 [[nodiscard]] Result<Config> read_config(const std::filesystem::path& path);
 

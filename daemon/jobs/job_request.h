@@ -7,7 +7,8 @@ namespace hydroprint::daemon {
 
 /// Resolves and checks a job that a client sent; proto/hydroprint/v1/spec.proto describes the
 /// errors. Sets the whole request except NewJob's owner, key and lease.
-/// @return errors of the kind's resolve(), then of check_job()
+/// @return all wrong fields of `sent`; then errors of the kind's resolve(); then of check_job(),
+/// for values that come from the jobs and calibrations it names
 [[nodiscard]] Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
                                              const JobSources& sources);
 

@@ -13,7 +13,7 @@
 namespace hydroprint::daemon {
 
 /// Stores calibrations, and the state of the rig during captures. Thread-safe. Methods with a
-/// calibration's id return kNotFound, CALIBRATION_NOT_FOUND if there is none.
+/// calibration's id return kNotFound, CALIBRATION_NOT_FOUND for an unknown id.
 class CalibrationStore {
  public:
   CalibrationStore(Database& database, Clock clock)

@@ -25,7 +25,7 @@ class DeviceJobs {
                                 const std::optional<JobFailure>& failure,
                                 const std::string& dip_status, const std::vector<Artifact>& record,
                                 const std::string& message);
-  /// Unfinished dips, without their inputs; at most one, except after a crash.
+  /// Returns unfinished dips, without their inputs; at most one, except after a crash.
   [[nodiscard]] Result<std::vector<Job>> open_dips();
 
  private:
@@ -33,7 +33,7 @@ class DeviceJobs {
   Database& database_;
 };
 
-/// Refuses (STATE_FORBIDS) another job of a kind while one is open. Call this within the
+/// Returns STATE_FORBIDS if a job of the kind is open. Call this within the
 /// transaction that then stores the job.
 [[nodiscard]] Status check_none_open(Database& database, const std::string& verb);
 

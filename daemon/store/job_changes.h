@@ -30,9 +30,9 @@ struct RetentionTimes {
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
 /// both -> INTERRUPTED.
 ///
-/// Methods of these classes that name a job return kNotFound, JOB_NOT_FOUND if there is none, and
-/// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change. Disk errors are as in
-/// Database::run().
+/// Methods of these classes that name a job return kNotFound, JOB_NOT_FOUND for an unknown job;
+/// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change; and the disk errors
+/// of Database::run().
 class JobChanges {
  public:
   JobChanges(Database& database, const RetentionTimes& times, Clock clock);
@@ -50,7 +50,7 @@ class JobChanges {
   [[nodiscard]] Status set_state(std::int64_t id, JobState state, const std::string& message);
   /// Stores a final state; the job's retention starts.
   [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);
-  /// Same, for FAILED with its reason.
+  /// Stores FAILED with its reason.
   [[nodiscard]] Status finish_failed(std::int64_t id, const JobFailure& failure);
   /// Sets the deletion time of the finished jobs that `where` (with one value) selects.
   [[nodiscard]] Status set_purge_time(const std::string& where, std::int64_t value);

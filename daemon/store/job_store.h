@@ -43,7 +43,7 @@ enum class Interruption { kShutdown, kLoss };
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
 /// both -> INTERRUPTED.
 ///
-/// Methods that name a job return kNotFound, JOB_NOT_FOUND if there is none, and
+/// Methods that name a job return kNotFound, JOB_NOT_FOUND for an unknown job, and
 /// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change. Disk errors are as in
 /// Database::run().
 class JobStore {

@@ -70,8 +70,8 @@ std::string alternatives(const std::vector<std::string>& names) {
   return out;
 }
 
-// Its name in help texts is "{sheet,stokes}", as that of CLI::IsMember, which completion scripts
-// use.
+// Accepts the names. Help texts show them as "{sheet,stokes}", from which completion scripts read
+// the choices (client/cli/commands/completion.cpp).
 CLI::Validator one_of(const std::vector<std::string>& names) {
   const auto check = [names](const std::string& text) {
     const bool is_known = std::find(names.begin(), names.end(), text) != names.end();

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little && sizeof(float) == 4);
 
 constexpr int kLargestPatch_px = 64;
-constexpr float kMostOffset = 100, kMostShared = 100;  ///< standard deviations
+constexpr float kMaxOffset = 100, kMaxShared = 100;  ///< in standard deviations of the depth
 
 template <class T>
 std::string text_of(const T* values, std::size_t count) {
@@ -62,8 +62,8 @@ std::optional<scan::FixedPattern> pattern_of(const nlohmann::json& json, int wid
   if (out.offset.size() != out.patches() || out.sigma.size() != out.patches() ||
       shared.size() != step.size() * out.patches() || step.size() < scan::Lens::kParameters)
     return {};
-  if (!are_within(out.offset, -kMostOffset, kMostOffset) ||
-      !are_within(out.sigma, 0, kMostOffset) || !are_within(step, 0, kMostShared))
+  if (!are_within(out.offset, -kMaxOffset, kMaxOffset) || !are_within(out.sigma, 0, kMaxOffset) ||
+      !are_within(step, 0, kMaxShared))
     return {};
   const auto unknowns = static_cast<Eigen::Index>(step.size());
   out.step = Eigen::Map<const Eigen::VectorXf>(step.data(), unknowns);

@@ -148,7 +148,7 @@ test('every control can be reached by keyboard, with a visible focus', async () 
   // A button that asks for confirmation keeps the focus, and Escape cancels.
   await open(person, '/rig');
   await page.getByLabel('Purpose').focus();
-  await tabTo('Take the rig');
+  await tabTo('Take control');
   await page.keyboard.press('Enter');
   await page.getByRole('button', { name: 'Arm' }).waitFor();
   await tabTo('Arm');
@@ -214,7 +214,7 @@ test('the first admin adds users; a viewer can stop the rig and change nothing e
   await viewer.page.getByText('You can view this page but not submit').waitFor();
   await open(viewer, '/rig');
   await viewer.page.getByText('You can view the rig and stop it').waitFor();
-  expect(await viewer.page.getByRole('button', { name: 'Take the rig' }).count()).toBe(0);
+  expect(await viewer.page.getByRole('button', { name: 'Take control' }).count()).toBe(0);
   await look(viewer, 'rig-viewer');
   await press(viewer.page, 'Stop');
   await viewer.page.getByRole('button', { name: 'Stopped' }).waitFor();

@@ -33,7 +33,7 @@ async function becomesReady(page: Page): Promise<void> {
 
 /** Takes the rig, and arms and homes it if needed. */
 async function takeReady(page: Page): Promise<void> {
-  await press(page, 'Take the rig');
+  await press(page, 'Take control');
   await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
   if ((await page.locator('.big').innerText()) === 'Disarmed') {
     await press(page, 'Arm');
@@ -58,7 +58,7 @@ test('the rig is taken, armed, homed, moved and jogged, and stopped from another
 
   const other = await come(there, 'mia', 'rig', 390);
   await page.getByLabel('Purpose').fill('<b>the mug</b>');
-  await press(page, 'Take the rig');
+  await press(page, 'Take control');
   await press(page, 'Arm');
   await press(page, 'Home');
   await becomesReady(page);
@@ -97,7 +97,7 @@ test('the rig is taken, armed, homed, moved and jogged, and stopped from another
   await page.keyboard.press('Escape');
   await becomesReady(page);
   await press(page, 'Release the rig');
-  await page.getByRole('heading', { name: 'Take the rig' }).waitFor();
+  await page.getByRole('heading', { name: 'Take control' }).waitFor();
   expect(operator.complaints.concat(other.complaints)).toEqual([]);
   await other.context.close();
   await operator.context.close();

@@ -30,7 +30,7 @@ Status capture(Program& program, const CaptureOptions& options) {
 void add_capture(CLI::App& app, Program& program) {
   auto options = std::make_shared<CaptureOptions>();
   CLI::App* command = app.add_subcommand("capture", "Record depth frames with the daemon's camera");
-  command->add_option("--seconds", options->seconds, field_help("CaptureSpec.seconds", "Duration"))
+  command->add_option("--seconds", options->seconds, field_help("CaptureSpec.seconds"))
       ->type_name("S");
   command->add_option("--name", options->job.display_name, "Display name of the job")
       ->type_name("TEXT");

@@ -52,7 +52,7 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   return {};
 }
 
-// " of 20.0 GB"; empty if there is no limit.
+// Returns " of 20.0 GB", or nothing for an unlimited quota.
 std::string of_allowed(const std::string& allowed, bool is_limited) {
   return is_limited ? " of " + allowed : "";
 }

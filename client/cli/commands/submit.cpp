@@ -29,9 +29,7 @@ struct JobFlags {
 void add_job_flags(CLI::App& command, JobFlags& options) {
   command.add_option("--name", options.job.display_name, "Display name of the job")
       ->type_name("TEXT");
-  command
-      .add_option("--priority", options.job.priority,
-                  field_help("Job.priority", "Among your jobs, higher runs first"))
+  command.add_option("--priority", options.job.priority, field_help("Job.priority"))
       ->type_name("N")
       ->check(field_range("Job.priority"));
   command.add_flag("--validate-only", options.job.validate_only,

@@ -21,9 +21,7 @@ const google::protobuf::FieldDescriptor& descriptor_of(const std::string& field)
 
 }  // namespace
 
-std::string field_help(const std::string& field, const std::string& text) {
-  return text + " (" + rules::help_text(descriptor_of(field)) + ")";
-}
+std::string field_help(const std::string& field) { return rules::flag_help(descriptor_of(field)); }
 
 CLI::Validator field_range(const std::string& field) {
   const v1::FieldRules& rules = *rules::rules_of(descriptor_of(field));

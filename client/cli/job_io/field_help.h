@@ -8,9 +8,9 @@ namespace hydroprint::cli {
 // These functions read the rules that the .proto files declare for the field behind a flag, for
 // example "SimulateSpec.dpi".
 
-/// Adds the field's range, choices and default to a help text: "Resolution (from 20 to 2400 dots
-/// per inch; default 300)".
-[[nodiscard]] std::string field_help(const std::string& field, const std::string& text);
+/// Returns the field's help text (rules::flag_help()): "Resolution of the film image (from 20 to
+/// 2400 dots per inch; default 300)".
+[[nodiscard]] std::string field_help(const std::string& field);
 
 /// Accepts numbers in the field's range.
 [[nodiscard]] CLI::Validator field_range(const std::string& field);

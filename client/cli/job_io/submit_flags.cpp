@@ -21,7 +21,7 @@ const v1::FieldRules& rules_of(const FieldDescriptor& field) {
 
 bool is_film(const FieldDescriptor& field) { return rules_of(field).format() == "film"; }
 
-// Files that other files refer to are found by themselves.
+// Lists of files have none: they are found by the references in other files.
 bool has_flag(const FieldDescriptor& field) {
   return !field.is_repeated() || field.message_type() == nullptr;
 }
@@ -41,8 +41,8 @@ CLI::Option* add_flag(CLI::App& command, SubmitOptions& options, const FieldDesc
                  : add_field(command, spec_of(options.job), field.name());
 }
 
-// Adds what the rules say of several fields.
-void relate(CLI::App& command, const FieldDescriptor& field) {
+// Makes a flag required, or exclusive with others, as the rules of its field say.
+void apply_rules(CLI::App& command, const FieldDescriptor& field) {
   CLI::Option* const option = command.get_option_no_throw(flags::flag_of(field));
   if (option == nullptr) return;
   const v1::FieldRules& rules = rules_of(field);
@@ -93,7 +93,7 @@ void add_spec_flags(CLI::App& command, SubmitOptions& options,
         only.empty() || std::find(only.begin(), only.end(), field.name()) != only.end();
     if (is_wanted && has_flag(field)) add_flag(command, options, field);
   }
-  for (int i = 0; i < spec.field_count(); ++i) relate(command, *spec.field(i));
+  for (int i = 0; i < spec.field_count(); ++i) apply_rules(command, *spec.field(i));
 }
 
 Result<v1::Job> upload_inputs(Inputs& inputs, const SubmitOptions& options) {

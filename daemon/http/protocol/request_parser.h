@@ -53,7 +53,7 @@ class RequestParser {
   [[nodiscard]] Outcome put(std::string_view bytes, std::size_t& used);
   [[nodiscard]] bool has_head() const;
   [[nodiscard]] bool is_done() const;
-  /// Returns the head. Call this only if has_head() is true.
+  /// Returns the head; requires has_head().
   [[nodiscard]] const Head& head() const;
   /// Returns the body bytes parsed since the last call.
   [[nodiscard]] std::string take_body();

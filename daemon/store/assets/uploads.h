@@ -34,20 +34,20 @@ class Uploads {
   /// REQUEST_ID_REUSED
   [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const AssetUser& user,
                                             const RequestKey& request);
-  /// An upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
+  /// Returns an upload of this owner. Errors: kNotFound, UPLOAD_NOT_FOUND.
   [[nodiscard]] Result<Upload> get(const std::string& id, const std::string& owner);
 
   // The following is for UploadWriter.
 
-  /// Reserves an upload for one writer. kAborted, UPLOAD_BUSY.
+  /// Reserves an upload for one writer. Errors: kAborted, UPLOAD_BUSY.
   [[nodiscard]] Status claim(const std::string& id);
   void release(const std::string& id);
-  /// The file that receives the bytes.
+  /// Returns the file that receives the bytes.
   [[nodiscard]] std::filesystem::path file(const std::string& id) const {
     return layout_.upload(id);
   }
-  /// Turns an upload with verified bytes into an asset. kResourceExhausted: DISK_FULL,
-  /// QUOTA_EXCEEDED
+  /// Turns an upload with verified bytes into an asset. Errors: kResourceExhausted: DISK_FULL,
+  /// QUOTA_EXCEEDED.
   [[nodiscard]] Result<Asset> complete(const Upload& upload);
   /// Deletes an upload.
   void give_up(const Upload& upload);
@@ -64,7 +64,7 @@ class Uploads {
   std::set<std::string> busy_;  // uploads that have a writer
 };
 
-/// The error ASSET_TOO_LARGE, with metadata `max_bytes`.
+/// Returns the error ASSET_TOO_LARGE, with metadata `max_bytes`.
 [[nodiscard]] tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes);
 
 }  // namespace hydroprint::daemon

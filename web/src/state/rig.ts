@@ -98,7 +98,7 @@ async function renew(): Promise<void> {
   const answer = await leaseApi.renew(leaseId.value, kLease_s);
   if (answer.ok || answer.failure.status === 0) return;
   keep('');
-  complain({ what: 'Your lease of the rig has ended', remedy: 'Take the rig again' });
+  complain({ what: 'Your lease of the rig has ended', remedy: 'Take control of the rig again' });
 }
 
 window.setInterval(() => void renew(), 20_000);

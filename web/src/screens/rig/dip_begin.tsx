@@ -68,8 +68,8 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       {remedy && <p class="error">{remedy}.</p>}
       {!isReady && (
         <p class="quiet">
-          {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves until
-          you confirm each step.
+          {isOurs.value ? 'Arm and home the rig first.' : 'Take control of the rig first.'} Nothing
+          moves until you confirm each step.
         </p>
       )}
     </section>

@@ -118,7 +118,9 @@ function Confirm({ job, words }: { job: Job; words: string | undefined }) {
   if (!words || job.state !== 'WAITING_FOR_OPERATOR') return null;
   if (!isOurs.value)
     return (
-      <p class="quiet">Only the holder of the lease can continue. To continue, take the rig.</p>
+      <p class="quiet">
+        Only the holder of the lease can continue. To continue, take control of the rig.
+      </p>
     );
   return (
     <Button

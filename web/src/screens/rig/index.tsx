@@ -123,7 +123,7 @@ function LeasePanel({ now }: { now: Rig }) {
   if (!lease)
     return (
       <section>
-        <h2>Take the rig</h2>
+        <h2>Take control</h2>
         <p class="quiet">
           One person at a time can control the rig. You keep control while this page is open.
         </p>
@@ -135,7 +135,7 @@ function LeasePanel({ now }: { now: Rig }) {
           maxBytes={rules.AcquireLeaseRequest.purpose.maxBytes}
         />
         <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
-          Take the rig
+          Take control
         </Button>
       </section>
     );
@@ -160,7 +160,7 @@ function LeasePanel({ now }: { now: Rig }) {
           )}
           {may('ADMIN') && (
             <details>
-              <summary>Take the rig from {lease.holder}</summary>
+              <summary>Take control from {lease.holder}</summary>
               <TextField
                 label="Reason (for the audit log)"
                 value={reason}
@@ -168,7 +168,7 @@ function LeasePanel({ now }: { now: Rig }) {
                 maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
               />
               <ConfirmButton
-                sure={`Take the rig from ${lease.holder}`}
+                sure={`Take control from ${lease.holder}`}
                 kind="danger"
                 onPress={() => breakLease(reason.trim() || 'no reason given')}
               >
