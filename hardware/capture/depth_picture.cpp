@@ -8,7 +8,8 @@
 namespace hydroprint::capture {
 namespace {
 
-// Viridis at even steps. Linear interpolation between them is visually identical to the curve.
+// The Viridis colour map at 11 equal steps. Linear interpolation between them is visually identical
+// to the full map.
 constexpr std::array<image::Rgb8, 11> kViridis{{{68, 1, 84},
                                                 {72, 36, 117},
                                                 {65, 68, 135},
@@ -23,7 +24,7 @@ constexpr std::array<image::Rgb8, 11> kViridis{{{68, 1, 84},
 constexpr image::Rgb8 kNotMeasured{150, 150, 150};
 constexpr double kOutlierShare = 0.01;
 
-/// @param t  0: far, 1: near; clamped
+/// @param t  0: far, 1: near; clamped to this range
 image::Rgb8 colour_of(double t) {
   const double at = std::clamp(t, 0.0, 1.0) * (kViridis.size() - 1);
   const auto low = std::min<std::size_t>(static_cast<std::size_t>(at), kViridis.size() - 2);

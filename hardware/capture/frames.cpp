@@ -46,7 +46,7 @@ Result<CapturedFrames> take_frames(depth_camera::DepthCamera& camera, const Opti
     index = frame->index;
     start_s = start_s.value_or(frame->time_s);
     const double passed_s = frame->time_s - *start_s;
-    // Half a frame period: durations are rounded to whole frames.
+    // The tolerance is half a frame period at 30 frames/s: durations are rounded to whole frames.
     if (passed_s >= seconds - 0.5 / 30) break;
     if (watch.good()) {
       out.frames.push_back(std::move(*frame));

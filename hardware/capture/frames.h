@@ -17,15 +17,15 @@ struct CapturedFrames {
   int left_out = 0;  ///< black frames, and frames identical to the previous one
 };
 
-/// Returns the next frame, waiting up to the patience in the options; calls `alive` repeatedly
-/// meanwhile. Returns nullopt at the end of a recording. Errors: those of DepthCamera::next, and
+/// Returns the next frame, waiting at most Options::patience_s; calls `alive` repeatedly while it
+/// waits. Returns nullopt at the end of a recording. Errors: those of DepthCamera::next, and
 /// kCancelled.
 [[nodiscard]] Result<std::optional<depth_camera::DepthFrame>> next_frame(
     depth_camera::DepthCamera& camera, const Options& options, const Context& context,
     const std::function<void()>& alive);
 
-/// Captures frames for the duration in the options, or until the recording ends. Errors: those of
-/// next_frame() and FrameWatch.
+/// Captures frames for Options::seconds, or until the recording ends. Errors: those of next_frame()
+/// and FrameWatch.
 [[nodiscard]] Result<CapturedFrames> take_frames(depth_camera::DepthCamera& camera,
                                                  const Options& options, const Context& context,
                                                  const std::function<void()>& alive);

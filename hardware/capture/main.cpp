@@ -1,5 +1,5 @@
 // hydroprint-capture captures frames of a depth camera in its own process, so that a driver that
-// hangs or crashes does no other harm.
+// hangs or crashes does not affect other processes.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -123,7 +123,8 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
   const Context context{
       1, [&](std::string_view stage, double fraction) { progress.update(stage, fraction); },
       [&termination] { return termination.requested(); }};
-  // Longer than the camera's own timeout, whose message is more specific.
+  // The watchdog waits longer than the camera's own timeout, because that timeout's error message
+  // is more specific.
   const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 30.0);
   Watchdog watchdog(std::chrono::duration<double>(patience_s + 1), bite(options, quiet, clean_up));
   context.progress("capture", 0);
@@ -148,13 +149,14 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
   return Summary{folder.dir(), taken.frames.size(), taken.lost};
 }
 
-/// Runs until a signal or an error.
+/// Writes live pictures until a signal or an error ends it.
 Status live(const Options& options, worker::Termination& termination,
             const worker::QuietStderr& quiet) {
-  (void)::nice(kNiceness);  // gives way to the rig and to computations
+  (void)::nice(kNiceness);  // lower priority than the rig and computations
   Context context;
   context.cancelled = [&termination] { return termination.requested(); };
-  // Longer than the camera's own timeout, whose message is more specific.
+  // The watchdog waits longer than the camera's own timeout, because that timeout's error message
+  // is more specific.
   Watchdog watchdog(std::chrono::duration<double>(options.patience_s + 1),
                     bite(options, quiet, [] {}));
   HP_ASSIGN_OR_RETURN(auto camera, open(options));
@@ -172,7 +174,7 @@ void sum_up(const Summary& summary, bool json) {
   std::puts(text.c_str());
 }
 
-/// Returns nullopt if there is no summary.
+/// Returns nullopt after live pictures, which have no summary. Converts exceptions to errors.
 Result<std::optional<Summary>> run_guarded(const Options& options, worker::Termination& termination,
                                            const worker::QuietStderr& quiet) {
   try {

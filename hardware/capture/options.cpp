@@ -10,9 +10,9 @@ constexpr const char* kFooter = R"(Examples:
   hydroprint-capture --seconds 2 --out frames                                  # the camera that is plugged in
   hydroprint-capture --device hydroprint:/tmp/rig --seconds 10 --record sweep.oni --out frames
   hydroprint-capture --recording sweep.oni --out frames
-  hydroprint-capture --live                    # a line of JSON and the PNG that it tells of, again and again
+  hydroprint-capture --live                    # one line of JSON and one PNG, every second
 
-Exit status: 0 done, 2 bad usage, 3 bad input (no such camera among it), 4 the camera failed, 130 cancelled.)";
+Exit status: 0 done, 2 bad usage, 3 bad input (such as an unknown camera), 4 the camera failed, 130 cancelled.)";
 
 /// Adds an option for a file. CLI11's own conversion would cut paths at spaces.
 CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& path,
@@ -31,23 +31,24 @@ void declare(CLI::App& app, Options& o) {
           ->type_name("URI");
   auto* recording = add_path(app, "--recording", o.recording,
                              "Use the frames of this recording instead of a camera", "FILE.oni");
-  auto* record = add_path(app, "--record", o.record, "Also record the stream", "FILE.oni");
+  auto* record =
+      add_path(app, "--record", o.record, "Also save the depth stream as a recording", "FILE.oni");
   recording->excludes(device)->excludes(record);
   auto* out = add_path(
       app, "--out", o.out,
-      "Folder to create for the frames and frames.json; that of an earlier run is replaced", "DIR");
+      "Folder to create for the frames and frames.json; replaces that of an earlier run", "DIR");
   auto* seconds = app.add_option("--seconds", o.seconds,
-                                 "Duration; default: 2 for a camera, all of a recording")
+                                 "Duration in seconds; default: 2 for a camera, all of a recording")
                       ->check(CLI::Range(0.01, kMostSeconds));
   auto* live = app.add_flag("--live", o.live,
                             "Write pictures to stdout until a signal ends the program, instead of "
                             "frames to a folder");
   live->excludes(recording)->excludes(record)->excludes(out)->excludes(seconds);
-  app.add_option("--every-s", o.every_s, "Interval between pictures")
+  app.add_option("--every-s", o.every_s, "Interval between pictures, in seconds")
       ->check(CLI::Range(0.05, 60.0))
       ->capture_default_str()
       ->needs(live);
-  app.add_option("--patience-s", o.patience_s, "Time to wait for a camera that does not respond")
+  app.add_option("--patience-s", o.patience_s, "Seconds to wait for a camera that does not respond")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();
   app.add_flag("--json", o.json, "Print the summary or error as one JSON object on stdout");

@@ -8,8 +8,8 @@
 
 namespace hydroprint::capture {
 
-/// Ends a process that hangs: calls `bites`, which must not return, on its own thread unless it is
-/// fed in time.
+/// Ends a process that hangs: a separate thread calls `bites`, which must not return, if feed() is
+/// not called for `patience`.
 class Watchdog {
  public:
   Watchdog(std::chrono::duration<double> patience, std::function<void()> bites);

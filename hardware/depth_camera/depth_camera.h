@@ -23,8 +23,8 @@ struct SourceInfo {
 /// A depth camera, or a recording, through OpenNI2. A driver may hang or crash: use each camera in
 /// its own process (hydroprint-capture). Error reasons:
 ///   CAMERA_NOT_FOUND   the camera does not exist
-///   CAMERA_UNUSABLE    it lacks a required feature
-///   CAMERA_GONE        it was unplugged
+///   CAMERA_UNUSABLE    the camera lacks a required feature, or OpenNI2 does not start
+///   CAMERA_GONE        the camera was unplugged
 ///   CAMERA_STALLED     no frame arrived in time
 ///   RECORDING_INVALID  the file is not a recording, or is truncated
 class DepthCamera {
@@ -34,7 +34,7 @@ class DepthCamera {
   ///             empty: the first connected camera
   [[nodiscard]] static Result<std::unique_ptr<DepthCamera>> open_device(const std::string& uri);
 
-  /// Opens a recording (.oni). It returns all frames, as fast as they can be read.
+  /// Opens a recording (.oni). next() then returns every frame, as fast as frames can be read.
   [[nodiscard]] static Result<std::unique_ptr<DepthCamera>> open_recording(
       const std::filesystem::path& path);
 
@@ -52,7 +52,7 @@ class DepthCamera {
   /// Starts a lossless recording of all later frames, until finish_recording() or destruction.
   /// Returns kPermissionDenied if the file cannot be written.
   [[nodiscard]] virtual Status record(const std::filesystem::path& path) = 0;
-  /// Ends the recording. No further frames arrive.
+  /// Ends the recording and stops the stream: next() returns no further frames.
   virtual void finish_recording() = 0;
 
  protected:

@@ -12,8 +12,8 @@ struct DepthFrame {
   std::vector<std::uint16_t> depth_mm;
   double time_s = 0;  ///< by the camera's clock; for a recording, since its first frame
   int index = 0;      ///< counted by the camera from 1; gaps are lost frames
-  /// Fields of view of the whole frame, from the manufacturer: principal point in the middle, no
-  /// distortion. A calibration of the lens is more accurate.
+  /// Fields of view of the whole frame, from the manufacturer. They assume a principal point in the
+  /// middle and no distortion; a calibration of the lens is more accurate.
   double horizontal_fov_rad = 0, vertical_fov_rad = 0;
 };
 

@@ -14,11 +14,12 @@ Status FrameWatch::look(const DepthFrame& frame) {
   same_ = black_ == 0 && frame.depth_mm == before_ ? same_ + 1 : 0;
   before_ = frame.depth_mm;
   if (black_ >= kMostBad) {
-    return fail(Code::kUnavailable,
-                name_ +
-                    ": the camera measures nothing. Remove its cover, keep a distance of 0.5 m and "
-                    "shade it from the sun",
-                "CAMERA_BLACK");
+    return fail(
+        Code::kUnavailable,
+        name_ +
+            ": the camera measures nothing. Remove its cover, keep objects at least 0.5 m away and "
+            "shade it from the sun",
+        "CAMERA_BLACK");
   }
   if (same_ >= kMostBad) {
     return fail(Code::kUnavailable,

@@ -9,11 +9,11 @@
 
 namespace hydroprint::depth_camera {
 
-/// Detects a camera whose frames are useless. One or two such frames are not an error, because
-/// cameras warm up.
+/// Detects a camera whose frames are useless. A few such frames are not an error, because a camera
+/// may deliver some while it warms up.
 class FrameWatch {
  public:
-  /// Number of consecutive bad frames that counts as an error (a third of a second).
+  /// Number of consecutive bad frames that counts as an error (a third of a second at 30 frames/s).
   static constexpr int kMostBad = 10;
   /// Frames with a smaller fraction of measured pixels count as black.
   static constexpr double kLeastMeasured = 0.01;
@@ -21,7 +21,8 @@ class FrameWatch {
   explicit FrameWatch(std::string name) : name_(std::move(name)) {}
 
   /// Checks a frame. Returns kUnavailable after kMostBad consecutive bad frames: CAMERA_FROZEN
-  /// (identical to the previous one, which sensor noise rules out) or CAMERA_BLACK.
+  /// (identical to the previous frame, which sensor noise rules out in a working camera) or
+  /// CAMERA_BLACK.
   [[nodiscard]] Status look(const DepthFrame& frame);
 
   /// Returns whether the last frame checked is usable.

@@ -36,7 +36,7 @@ std::string serial_remedy(int error) {
       return "no such device. Plug in the adapter, or correct the path";
     case EACCES:
     case EPERM:
-      return "not allowed. Add this user to the group that owns the device";
+      return "permission denied. Add this user to the group that owns the device";
     case EBUSY:
     case EWOULDBLOCK:
       return "in use by another program. Stop that program";
@@ -128,16 +128,16 @@ Result<std::unique_ptr<Connection>> Connection::open(const Endpoint& endpoint,
   modbus_set_byte_timeout(modbus, 0, 0);
   HP_RETURN_IF_ERROR(endpoint.serial ? out->open_serial() : out->open_tcp());
   if (!can_be_watched(modbus_get_socket(modbus))) {
-    return offline(endpoint, "this process has too many open files. Close some");
+    return offline(endpoint, "this process has too many open files. Restart it");
   }
   return out;
 }
 
 namespace {
 
-/// A line without a parity bit, such as a pseudo-terminal, refuses settings that change nothing but
-/// parity. That happens after a process was killed with the line open, because its settings remain.
-/// Changing the speed first avoids the refusal.
+/// Changes the speed of a serial line, so that it accepts libmodbus's settings. A line without a
+/// parity bit, such as a pseudo-terminal, refuses settings that differ from its own only in parity.
+/// Those occur after a process was killed with the line open, because its settings remain.
 void forget_settings(int line) {
   termios settings{};
   if (::tcgetattr(line, &settings) != 0) return;

@@ -23,13 +23,13 @@ class Connection {
   /// The result of an exchange.
   enum class End {
     kReply,    ///< a correctly framed reply arrived
-    kDamaged,  ///< something else arrived
+    kDamaged,  ///< the bytes received are not a valid reply frame
     kTimeout,
     kLost,  ///< the connection is lost
   };
 
   /// Discards pending input, sends a request from encode_request and waits for the reply, which is
-  /// stored in `reply` for decode_reply. `cause` receives libmodbus's description of the error.
+  /// stored in `reply` for decode_reply. `cause` receives a description of the error.
   End exchange(int unit, const std::vector<std::uint8_t>& request, std::size_t reply_bytes,
                std::vector<std::uint8_t>& reply, std::string& cause);
 

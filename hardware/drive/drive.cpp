@@ -19,7 +19,7 @@ Error unsafe(const std::string& what) {
   return {Code::kFailedPrecondition, what, "DRIVE_CONFIG_UNSAFE", {}};
 }
 
-/// Whether the drive responded despite the error, so that its state is still known.
+/// Returns whether the drive responded despite the error, so that its state is still known.
 bool is_answer(const Error& error) {
   return error.reason == "DRIVE_REFUSED" || error.reason == "DRIVE_BUSY" ||
          error.reason == "LIMIT_EXCEEDED";

@@ -105,7 +105,7 @@ class Drive {
 
   DriveProfile profile_;
   std::shared_ptr<Link> link_;
-  bool known_ = false;  // the last exchange on the link succeeded
+  bool known_ = false;  // a poll succeeded, and the link has not failed since
   // The connection that was inspected; StopLine may have reconnected since then.
   std::uint64_t connection_ = 0;
   std::optional<Error> unsafe_;

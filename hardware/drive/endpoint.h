@@ -17,7 +17,7 @@ struct Endpoint {
   char parity = 'E';  ///< 'N', 'E' or 'O'
   int stop_bits = 1;
 
-  /// Formats the endpoint for parse_endpoint().
+  /// Formats the endpoint as text that parse_endpoint() accepts.
   [[nodiscard]] std::string text() const;
 };
 

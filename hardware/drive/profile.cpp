@@ -75,7 +75,8 @@ std::vector<Block> read_blocks(TomlReader& top) {
     Block block;
     block.space = read_space(table);
     block.address = read_word(table, "address");
-    // Identity and watchdog are read with requests of one or two words.
+    // At least three words: identity and watchdog are read with requests of one or two, and the
+    // lengths of replies must differ.
     block.count = static_cast<std::uint16_t>(table.integer("count", 3, kMaxReadWords));
     if (block.address + block.count > 0x10000) {
       table.refuse("count", "extends beyond register 65535. Correct it");
@@ -176,7 +177,7 @@ Write read_write(TomlReader& table, const DriveProfile& profile) {
   }
   if (words < 1 || words > kMaxWriteWords || write.address + words > 0x10000) {
     table.refuse("values",
-                 "contains too few or too many words. Use 1 to 123, up to register 65535");
+                 "contains too few or too many words. Use 1 to 123, none beyond register 65535");
   }
   return write;
 }
@@ -220,8 +221,9 @@ void read_watchdog(TomlReader& top, DriveProfile& profile) {
       watchdog.stopping.push_back(value->word);
     }
   } else if (!table.flag("always_stops")) {
-    table.refuse("always_stops",
-                 "is false, but there is no action. Add the values of the action that stop");
+    table.refuse(
+        "always_stops",
+        "is false, but there is no action. Set it to true, or add action and stopping_actions");
   }
   profile.watchdog = std::move(watchdog);
 }

@@ -45,8 +45,7 @@ struct Mark {
 };
 
 /// Registers that are read with one request. The mark lies within the block and distinguishes the
-/// reply from a late reply to another request. All requests of a profile read different numbers of
-/// words.
+/// reply from a late reply to another request. Blocks of a profile differ in length.
 struct Block {
   Space space = Space::kHolding;
   std::uint16_t address = 0;
@@ -111,7 +110,7 @@ struct Alarm {
 struct Watchdog {
   Field time;                                ///< the watchdog time in s
   double largest_time_s = 0;                 ///< longest permitted time; 0 is never permitted
-  std::optional<Field> action;               ///< absent: this drive always stops
+  std::optional<Field> action;               ///< reaction to a timeout; absent: always a stop
   std::vector<std::uint16_t> stopping = {};  ///< values of `action` that stop the axis
 };
 
@@ -141,7 +140,7 @@ struct DriveProfile {
   std::array<std::optional<BitPlace>, kStatusBits> bits;
   std::map<int, Alarm> alarms;
 
-  /// Formats in writes.
+  /// Encodings of the quantities in writes.
   Format position_format, speed_format, acceleration_format, deceleration_format;
   std::array<std::vector<Write>, kCommands> commands;  ///< writes of each command, in sending order
   double jog_refresh_s = 0;  ///< maximum interval between the commands of a jog
@@ -164,7 +163,7 @@ struct DriveProfile {
 [[nodiscard]] Result<DriveProfile> read_drive_profile(const std::filesystem::path& path);
 
 /// Returns an upper bound of the distance that the axis travels after the last message to the
-/// drive, if the link breaks at `speed_mm_per_s` (daemon notes 3.6): v t_watchdog + v^2 / 2a.
+/// drive, if the link breaks at `speed_mm_per_s`: v t_watchdog + v^2 / 2a.
 [[nodiscard]] double stopping_distance_mm(const DriveProfile& profile, double speed_mm_per_s,
                                           double watchdog_s);
 

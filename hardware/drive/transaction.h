@@ -37,8 +37,8 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Reopens the connection; on RTU, locks the line for this process. Returns kUnavailable, reason
-  /// RIG_OFFLINE, with a list of things to check.
+  /// Reopens the connection; on RTU, locks the line for this process. On failure returns
+  /// kUnavailable, reason RIG_OFFLINE, with a list of things to check.
   [[nodiscard]] Status connect();
 
   /// Closes the connection, if it is open.
@@ -46,8 +46,8 @@ class Link {
 
   [[nodiscard]] bool is_open() const;
 
-  /// Returns the number of connections made so far. If the number has changed, it is a different
-  /// connection, perhaps to another drive.
+  /// Returns the number of connections made so far. If the number has changed, the link has been
+  /// reconnected, perhaps to another drive.
   [[nodiscard]] std::uint64_t connections() const;
 
   /// Sends a request and returns its reply: the words read, empty for a write. Errors: those of
@@ -56,7 +56,8 @@ class Link {
   [[nodiscard]] Result<std::vector<std::uint16_t>> transact(const Request& request,
                                                             Urgency urgency = Urgency::kNormal);
 
-  /// Must be called if a well-formed reply has the wrong content. Handled like a failure.
+  /// Must be called if a well-formed reply has the wrong content. Treats the reply as a failure of
+  /// the link.
   void distrust();
 
   [[nodiscard]] const Endpoint& endpoint() const;

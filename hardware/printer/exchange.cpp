@@ -41,7 +41,7 @@ class Deadline {
   PeriodicThread thread_;  // last member: it uses the others
 };
 
-/// Callback of CUPS, called when the time for one wait is up: whether to continue waiting.
+/// Called by CUPS when the time for one wait is up. Returns 0, so that CUPS stops waiting.
 int give_up(http_t*, void* timed_out) {
   *static_cast<bool*>(timed_out) = true;
   return 0;

@@ -21,9 +21,9 @@ using Ipp = std::unique_ptr<ipp_t, IppDelete>;
 /// Time limits of one exchange.
 struct ExchangeTiming {
   std::chrono::milliseconds connect{5000};
-  /// For a response after the last byte is sent; also for every write.
+  /// Timeout for a response after the last byte is sent, and for every write.
   std::chrono::milliseconds answer{15000};
-  std::chrono::milliseconds whole{60000};  ///< for the whole exchange, however slow the printer is
+  std::chrono::milliseconds whole{60000};  ///< timeout for the whole exchange
 };
 
 /// Error reasons for failed exchanges.
@@ -35,7 +35,8 @@ inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< the caller cancel
 
 /// Sends one request, followed by a document, over a new connection and waits for the printer's
 /// reply, whatever its status. Ends in bounded time, except for host name lookup, which depends on
-/// the resolver. Returns kUnavailable (kLeft: kCancelled) with one of the reasons above.
+/// the resolver. Returns kUnavailable with one of the reasons above, except that kLeft comes with
+/// kCancelled.
 /// @param gives_up  called ten times a second while connected; the exchange ends if it returns true
 [[nodiscard]] Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
                                    const std::function<bool()>& gives_up, ipp_t* request,

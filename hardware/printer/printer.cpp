@@ -71,7 +71,8 @@ std::vector<std::string> reasons(ipp_t* reply, const char* name) {
   return out;
 }
 
-/// The smallest supported value. Printers that can print to the edge list 0 among others.
+/// Returns the smallest supported value, in mm. Printers that can print to the edge list 0 among
+/// others.
 double least_mm(ipp_t* reply, const char* name) {
   ipp_attribute_t* attribute = ippFindAttribute(reply, name, IPP_TAG_INTEGER);
   int least = 0;
@@ -92,7 +93,7 @@ std::vector<Paper> papers(ipp_t* reply) {
   return out;
 }
 
-/// Attributes of the request that the reply reports as ignored.
+/// Returns the attributes of the request that the reply reports as ignored.
 std::vector<std::string> ignored(ipp_t* reply) {
   std::vector<std::string> out;
   for (ipp_attribute_t* a = ippFirstAttribute(reply); a != nullptr; a = ippNextAttribute(reply)) {
@@ -104,7 +105,8 @@ std::vector<std::string> ignored(ipp_t* reply) {
 
 bool is_ok(ipp_t* reply) { return ippGetStatusCode(reply) < IPP_STATUS_REDIRECTION_OTHER_SITE; }
 
-/// Printers report this with a specific status, or by naming the attribute.
+/// Returns whether the printer rejects the document format. Printers report this with a specific
+/// status, or by naming the attribute.
 bool is_about_format(ipp_t* reply) {
   if (ippGetStatusCode(reply) == IPP_STATUS_ERROR_DOCUMENT_FORMAT_NOT_SUPPORTED) return true;
   const auto names = ignored(reply);

@@ -74,9 +74,10 @@ struct Submitted {
 };
 
 /// A printer that supports IPP (RFC 8010, RFC 8011); every call opens its own connection. Immutable
-/// and thread-safe. All calls end in bounded time (Timing) and return kUnavailable, reason
-/// PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP. If the printer rejects a
-/// request, the error has reason PRINTER_REFUSED and contains the printer's own keyword.
+/// and thread-safe. All calls end in bounded time (Timing). If communication fails, they return
+/// kUnavailable, reason PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP. If
+/// the printer rejects a request, the error has reason PRINTER_REFUSED and contains the printer's
+/// own keyword.
 class Printer {
  public:
   /// @param gives_up  called repeatedly, from any thread. Once it returns true, every call ends
@@ -99,8 +100,8 @@ class Printer {
   [[nodiscard]] Status cancel(int id) const;
 
   /// Waits until a job is finished and reports every change.
-  /// @param is_cancelled  called at every poll. If it returns true, the job is cancelled and still
-  ///                      followed
+  /// @param is_cancelled  called at every poll. If it returns true, the job is cancelled, and
+  ///                      follow() waits for its end
   /// @return the report if the job completed. Otherwise kAborted, reason PRINT_ABORTED or
   ///         PRINT_CANCELED, with the printer's reasons; kUnavailable, reason PRINTER_LOST, if the
   ///         printer does not respond; kUnavailable, reason PRINT_UNFINISHED, after Timing::job.

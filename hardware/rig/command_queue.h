@@ -23,8 +23,8 @@ struct Order {
   std::promise<Answer> answer = {};
 };
 
-/// A short queue of commands, in order. Callers may wait for each other; the control loop never
-/// waits.
+/// A short queue of commands, in order. Callers may wait for each other's access; the control loop
+/// never waits.
 class CommandQueue {
  public:
   /// Returns false if the queue is full; the order is then not stored.
@@ -34,8 +34,8 @@ class CommandQueue {
     orders_.push_back(std::move(order));
     return true;
   }
-  /// Takes all waiting orders. Returns none while a caller is adding one; that one is taken next
-  /// time.
+  /// Takes all waiting orders. Returns an empty queue while a caller is adding an order; that order
+  /// is taken the next time.
   [[nodiscard]] std::deque<Order> take() {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     return lock ? std::exchange(orders_, {}) : std::deque<Order>();

@@ -20,9 +20,9 @@ using Kind = Event::Kind;
 constexpr double kPendingPatience_s = 2;
 constexpr double kStopAgain_s = 0.2;
 constexpr int kStandstillPolls = 2;
-// Added to the watchdog's time before it is certain to have acted.
+// Added to the watchdog's time, until the watchdog must have acted.
 constexpr double kWatchdogMargin_s = 0.05;
-// Added to the computed stopping time; an axis that still moves then does not obey.
+// Added to the computed braking time. An axis that still moves after this does not obey the stop.
 constexpr double kStopMargin_s = 0.5;
 // Added to the computed stopping time before an axis that cannot be polled counts as at rest.
 constexpr double kStandstillMargin_s = 0.5;
@@ -96,7 +96,8 @@ void ControlLoop::take_stops() {
   apply({Kind::kStop});
 }
 
-/// After a stop, standstill requires two polls: a motion that was sent earlier may still begin.
+/// Reports standstill after a stop only once two consecutive polls show it, because a motion that
+/// was commanded earlier may still begin.
 Bits ControlLoop::settled(Bits bits) {
   if (condition_.state != State::kStopping) return bits;
   still_ = bits.moving ? 0 : still_ + 1;
@@ -112,7 +113,7 @@ void ControlLoop::look() {
     seen.event->bits = settled(seen.event->bits);
     if (seen.event->kind == Kind::kSeen) {
       stop_channel_.prepare();
-      stopping_since_ = Clock::now();  // if STOPPING: the drive can now obey again
+      stopping_since_ = Clock::now();  // if STOPPING: only now can the drive obey again
     }
   }
   if (seen.event) apply(*seen.event);
@@ -128,8 +129,8 @@ void ControlLoop::look() {
   }
 }
 
-/// If the drive may be moving and the stop may not have reached it, this thread stays silent until
-/// the drive's watchdog has acted: any message would keep the drive moving.
+/// Handles a lost link. If the drive may be moving and may not have received the stop, this thread
+/// sends nothing until the drive's watchdog has acted: any message would keep the drive moving.
 void ControlLoop::lose() {
   axis_.reset();
   apply({Kind::kLost});
@@ -192,8 +193,8 @@ void ControlLoop::send_stop() {
   if (link_monitor_.is_up()) (void)drive_.stop();
 }
 
-/// Returns the error of the first command that the drive did not accept. Stop and disable are
-/// repeated until the drive shows them, so their errors are ignored.
+/// Returns the error of the first command that the drive did not accept. Errors of stop and disable
+/// are ignored, because both are repeated until the drive reports their effect.
 Status ControlLoop::act(const Actions& actions) {
   if (actions.stop) send_stop();
   if (actions.disable && link_monitor_.is_up()) (void)drive_.disable();
@@ -209,7 +210,7 @@ void ControlLoop::keep_going() {
   if (condition_.motion == Motion::kJog &&
       seconds_since(jogged_) >= drive_.profile().jog_refresh_s / 2) {
     jogged_ = Clock::now();
-    // if one is missing, the jog ends by itself
+    // An error is ignored: without its repeated commands, the jog ends by itself.
     (void)drive_.jog(supervisor_->plan().jog_mm_per_s);
   }
   if (condition_.state != State::kStopping || !link_monitor_.is_up()) return;

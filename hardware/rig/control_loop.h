@@ -12,8 +12,8 @@
 
 namespace hydroprint::rig {
 
-/// State shared by the controller's callers and the control loop, neither of which waits for the
-/// other.
+/// State shared by the controller's callers and the control loop. The control loop never waits for
+/// a caller.
 struct SharedState {
   CommandQueue orders;
   RigStatus status;
@@ -21,8 +21,8 @@ struct SharedState {
   std::atomic<bool> end{false};
 };
 
-/// The only thread that communicates with the drive. It polls the drive at a fixed period, feeds
-/// the state machine, and executes its actions.
+/// The only thread that polls and commands the drive (StopChannel only stops it). It polls at a
+/// fixed period, feeds the state machine, and executes the resulting actions.
 class ControlLoop {
  public:
   /// @param drive, stop_channel, shared  must outlive this object
@@ -42,7 +42,8 @@ class ControlLoop {
   void publish();
   void shut_down();
 
-  /// Feeds the state machine and executes its actions, except for starting a motion.
+  /// Feeds an event to the state machine and executes the resulting actions, except for starting a
+  /// motion.
   Step apply(const Event& event);
   void note_change(const Condition& before);
   [[nodiscard]] Status act(const Actions& actions);

@@ -12,14 +12,13 @@
 
 namespace hydroprint::rig {
 
-/// One rig. Its control loop polls the drive at a fixed period, whether or not the drive responds.
-/// It never waits for a caller, a log or a disk, detects a lost drive, and reconnects
-/// automatically.
+/// One rig. Its control loop runs at a fixed period, whether or not the drive responds. The loop
+/// never waits for a caller, a log or a disk; it detects a lost link and reconnects automatically.
 /// Thread-safe. Orders are executed one after the other. The future of an order is set when the
-/// drive has accepted it (arm and reset: when the drive reports it), or when the order is refused.
-/// Reasons are those of errors.h, LIMIT_EXCEEDED and QUEUE_FULL, and kAborted if the order was late
-/// or followed by a stop. motion() reports the further course of a motion. An order never returns
-/// kUnavailable.
+/// drive has accepted it (for arm and reset: when the drive reports the effect), or when the order
+/// is refused. Reasons are those of errors.h, LIMIT_EXCEEDED and QUEUE_FULL, and STATE_FORBIDS
+/// (kAborted) if the order waited too long or a stop followed it. motion() reports how a motion
+/// continues and ends. An order never returns kUnavailable.
 class Controller {
  public:
   /// Starts the controller, even without the drive. Returns the errors of check(config, profile).
@@ -41,7 +40,7 @@ class Controller {
   /// Moves at a speed of either sign as long as this is called again at least every kPresence_s.
   /// The axis stops within 500 ms of the last call, or before the soft limit.
   std::future<Answer> jog(double speed_mm_per_s);
-  /// Performs each leg and its hold. Does not depend on the client.
+  /// Performs each leg and its hold. The dip continues if the client disconnects.
   std::future<Answer> dip(std::vector<Leg> legs);
 
   /// Stops any motion. Returns immediately in every situation, is never refused and may be

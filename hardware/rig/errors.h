@@ -5,9 +5,8 @@
 
 namespace hydroprint::rig {
 
-/// Returns the error for a refused command: the reason and the first remedy, with metadata `state`
-/// and, if set, `cause`. Never kUnavailable, because clients must not repeat these commands
-/// automatically.
+/// Returns the error for a refused command: the fault and its remedy, with metadata `state` and, if
+/// set, `cause`. Never kUnavailable, because clients must not repeat these commands automatically.
 [[nodiscard]] Error refused(Refusal refusal, const Condition& condition);
 
 /// Returns the error for a motion that failed with this cause: fault and remedy, with metadata

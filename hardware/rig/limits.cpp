@@ -9,7 +9,7 @@
 namespace hydroprint::rig {
 namespace {
 
-// Number of poll periods between two checks of a jog.
+// Number of poll periods for which a jog must still have space.
 constexpr double kJogLooks = 3;
 
 /// The longest accepted watchdog time; a drive without a watchdog is never armed.

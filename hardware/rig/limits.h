@@ -24,11 +24,11 @@ struct Range {
   double high_mm;
 };
 
-/// Returns the allowed range of the axis: between the ends, less the keep-out at both.
+/// Returns the allowed range of the axis: between its ends, less the keep-out distance at each end.
 [[nodiscard]] Range soft_limits(const RigConfig& config);
 
-/// Check that a target is within the soft limits, and a speed in (0, max_speed].
-/// @return kOutOfRange, reason "LIMIT_EXCEEDED"; metadata axis, min, max, value (mm, mm/s)
+/// Returns kOutOfRange, reason LIMIT_EXCEEDED, with metadata axis, min, max, value (in mm or mm/s).
+/// @param axis  "position" or "speed"
 [[nodiscard]] tl::unexpected<Error> limit_exceeded(const std::string& axis, std::string message,
                                                    double value, Range range);
 

@@ -12,7 +12,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kFirstPause{50};
 constexpr std::chrono::milliseconds kLongestPause{2000};
-// Lower speeds count as standstill, because encoder values fluctuate.
+// Speeds up to this count as standstill, because encoder values fluctuate.
 constexpr double kRest_mm_per_s = 0.2;
 
 bool is_stale(TimePoint clean) {

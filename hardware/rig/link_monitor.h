@@ -18,7 +18,7 @@ class LinkMonitor {
   explicit LinkMonitor(drive::Drive& drive) : drive_(drive) {}
 
   struct Look {
-    /// KSeen, kSample or kLost; nullopt: the poll failed, or none was due.
+    /// kSeen, kSample or kLost; nullopt: one poll failed, or none was due.
     std::optional<Event> event;
     std::optional<drive::DriveState> axis;
   };

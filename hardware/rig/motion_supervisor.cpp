@@ -115,7 +115,8 @@ void MotionSupervisor::note(Sample& sample) const {
   if (!travel_) return;
   const double t_s = since_leg_s(sample.time);
   sample.expected_mm = travel_->position_mm(t_s);
-  // The command may arrive late, and so may the drive's reaction.
+  // The speed counts as constant only some time after the computed start, because the command and
+  // the drive's reaction may be late.
   sample.cruising =
       t_s > travel_->cruise_begin_s() + config_.following_error_s && t_s < travel_->cruise_end_s();
 }

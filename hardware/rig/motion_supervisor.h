@@ -21,12 +21,12 @@ struct Leg {
 /// The parameters of a motion.
 struct Plan {
   Motion motion = Motion::kNone;
-  std::vector<Leg> legs = {};  ///< one for a move, or those of a dip
+  std::vector<Leg> legs = {};  ///< exactly one for a move, one or more for a dip, otherwise empty
   double jog_mm_per_s = 0;     ///< speed of a jog; the sign is the direction
 };
 
 /// Returns an error for a plan that leaves the soft limits or is too fast (check_target,
-/// check_speed), a move without a leg, a dip without legs, and an invalid hold time.
+/// check_speed), a move without exactly one leg, a dip without legs, and an invalid hold time.
 [[nodiscard]] Status check(const RigConfig& config, const Plan& plan);
 
 /// One motion in progress: processes samples of the drive and returns the next action. Has no
@@ -48,8 +48,8 @@ class MotionSupervisor {
   /// Records that the jog was requested again at this time, with its speed.
   void hold_jog(TimePoint now, double speed_mm_per_s);
 
-  /// Fills in the fields of a sample that depend on the motion: leg, expected position, constant
-  /// speed.
+  /// Fills in the fields of a sample that depend on the motion: leg, expected position, and whether
+  /// the speed should be constant.
   void note(Sample& sample) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }

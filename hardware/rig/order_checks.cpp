@@ -8,7 +8,7 @@
 namespace hydroprint::rig {
 namespace {
 
-// Older orders are refused: the person who gave the order may have left.
+// Age at which an order is refused: the person who gave it may have left.
 constexpr double kOldest_s = 1;
 
 double age_s(const Order& order) {

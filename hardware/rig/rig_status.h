@@ -31,7 +31,7 @@ struct MotionReport {
   TimePoint begun, ended;
   TimePoint rested;                ///< time of standstill
   std::uint64_t first_sample = 0;  ///< number, in the SampleRing, of the first sample of the motion
-  std::uint64_t last_sample = 0;   ///< number of the last sample before standstill
+  std::uint64_t last_sample = 0;   ///< number of its latest sample; finally that at standstill
 };
 
 /// Timing statistics of the control loop's polls.
@@ -46,7 +46,7 @@ struct Jitter {
 struct Snapshot {
   Condition condition;
   TimePoint time;         ///< time of the last valid poll
-  bool has_axis = false;  ///< the fields below are valid, since the drive last connected
+  bool has_axis = false;  ///< the next four fields are valid (polled since any lost link)
   Bits bits;
   double position_mm = 0;
   double velocity_mm_per_s = 0;
@@ -54,7 +54,7 @@ struct Snapshot {
   double watchdog_s = 0;                         ///< watchdog time of the drive, as read back
   std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
-  Jitter jitter;  ///< Jitter::ticks shows that the control loop is alive
+  Jitter jitter;  ///< increasing Jitter::ticks show that the control loop runs
 };
 
 /// Data that the control loop publishes without waiting and other threads copy.
@@ -65,7 +65,7 @@ class RigStatus {
   SampleRing samples;
   Seqlock<Snapshot> snapshot;
 
-  /// For the control loop.
+  /// Publishes a report; only the control loop may call this.
   void put(const MotionReport& report) { motions_[report.number % kMotions].store(report); }
   /// Returns the report of a motion; nullopt if it does not exist yet or has been overwritten.
   [[nodiscard]] std::optional<MotionReport> motion(std::uint64_t number) const {
@@ -74,7 +74,8 @@ class RigStatus {
     return report;
   }
 
-  /// For the control loop. Returns false while another thread is reading; then call it again later.
+  /// Publishes the current fault; only the control loop may call this. Returns false, without
+  /// effect, while another thread reads the fault; call it again later.
   [[nodiscard]] bool put(const std::optional<Error>& trouble) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock) trouble_ = trouble;

@@ -16,7 +16,7 @@ double seconds(const Sample& sample, const Sample& first) {
   return std::chrono::duration<double>(sample.time - first.time).count();
 }
 
-// The weight of a sample depends on the uncertainty of its time, with this lower bound.
+// Lower bound of the uncertainty of a sample's time, on which its weight depends.
 constexpr double kBestTimeError_s = 2e-4;
 
 double weight(const Sample& sample) {

@@ -34,8 +34,7 @@ class SampleRing {
   static constexpr std::size_t kSize = std::size_t{1} << 16;  // 21 minutes at 50 Hz
 
   SampleRing();
-  /// Assigns a number to a sample and stores it. Only one thread may call this.
-  /// @return its number
+  /// Stores a sample under the next number, and returns that number. Only one thread may call this.
   std::uint64_t add(Sample sample);
   /// Returns the number of the newest sample; 0: none.
   [[nodiscard]] std::uint64_t newest() const { return newest_.load(std::memory_order_acquire); }
@@ -59,9 +58,9 @@ struct ConstantSpeed {
   double window_s = 0;
 };
 
-/// Evaluates the samples of one leg that should have its constant speed; returns zeros for fewer
-/// than three. Speeds are averaged over at least `window_s`, so that they show the motion and not
-/// the resolution of the encoder.
+/// Evaluates the samples of one leg during which its speed should be constant; returns zero speeds
+/// and deviations if there are fewer than three. Speeds are averaged over at least `window_s`, so
+/// that they show the motion and not the resolution of the encoder.
 [[nodiscard]] ConstantSpeed constant_speed(std::span<const Sample> samples, std::uint64_t motion,
                                            int leg, double window_s = 0.2);
 

@@ -10,9 +10,10 @@ namespace hydroprint::rig {
 
 /// A value that one thread writes without waiting and any thread reads consistently: a reader that
 /// overlaps with a write repeats the read.
-/// All accesses are atomic, with release and acquire ordering and no fences. A reader that sees a
-/// word of a newer value has thereby acquired the odd turn that was stored before that word. Its
-/// second read of the turn then differs from the first, so it repeats the read.
+/// All accesses are atomic, with release and acquire ordering and no fences. A writer makes the
+/// counter `turn_` odd before it writes the words, and even again afterwards. A reader that sees a
+/// word of a newer value therefore also sees the odd counter that was stored before that word. The
+/// reader's second load of the counter then differs from its first, so it repeats the read.
 template <class T>
 class Seqlock {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -24,7 +25,7 @@ class Seqlock {
     std::memcpy(words.data(), &value, sizeof value);
     const std::uint64_t turn = turn_.load(std::memory_order_relaxed);
     turn_.store(turn + 1, std::memory_order_relaxed);
-    // A reader that sees one of these words also sees the odd turn.
+    // A reader that sees one of these words also sees the odd counter.
     for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
     turn_.store(turn + 2, std::memory_order_release);
   }

@@ -16,7 +16,7 @@ State rest(const Condition& c) {
   return c.homed ? State::kIdle : State::kUnhomed;
 }
 
-/// A fault: the axis is stopped, and a reset is required. The first cause is kept.
+/// Enters a fault: the axis is stopped, and a reset is required. The first cause is kept.
 Step trip(Condition c, Cause cause, bool moving) {
   if (c.cause == Cause::kNone) c.cause = cause;
   c.homed = false;
@@ -138,7 +138,7 @@ Step time_out(Condition c) {
   return {c, {.disable = arming}};
 }
 
-/// Why only a stop is possible in this state; nullopt if other commands are possible.
+/// Returns why this state permits no command except a stop; nullopt if it permits others.
 std::optional<Refusal> out_of_order(const Condition& c) {
   switch (c.state) {
     case State::kOffline:

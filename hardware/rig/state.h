@@ -6,7 +6,7 @@
 
 namespace hydroprint::rig {
 
-/// The state of the rig; README.md draws the transitions.
+/// The state of the rig; README.md contains a diagram of the transitions.
 enum class State : std::uint8_t {
   kOffline,   ///< the drive does not respond: nothing is known
   kDisarmed,  ///< the drive responds and holds no torque
@@ -31,7 +31,7 @@ enum class Cause : std::uint8_t {
   kGuard,             ///< the axis left its soft limits
   kFollowingError,    ///< the axis is not at its commanded position
   kUnexpectedMotion,  ///< the axis moves without a command
-  kConfigUnsafe,      ///< the drive's watchdog was turned off while armed
+  kConfigUnsafe,      ///< the drive's watchdog became unsafe while the rig was armed
   kStopButton,
 };
 
@@ -52,7 +52,7 @@ struct Condition {
   Cause cause = Cause::kNone;     ///< kept until a reset, also in STOPPING and OFFLINE
   Link link = Link::kNone;
   Pending pending = Pending::kNone;
-  /// Determined by this state machine; the drive's own claim is not sufficient.
+  /// Set by this state machine after homing; the drive's own homed bit is not sufficient.
   bool homed = false;
   bool button = false;  ///< pressed at the last poll
 
@@ -76,7 +76,7 @@ struct Event {
     kSeen,    ///< first valid poll after connecting; `safe`: identity and watchdog are correct
     kSample,  ///< any later poll
     kLost,    ///< three polls missed, 250 ms without a valid poll, or no connection
-    kStandstillAssumed,  ///< lost for longer than the time in which the watchdog stops the axis
+    kStandstillAssumed,  ///< lost for so long that the watchdog must have stopped the axis
     kMotionDone,         ///< the drive is at rest at the motion's target
     kJogOver,            ///< the jog was released, or has reached its limit
     kOutsideLimits,

@@ -6,7 +6,8 @@
 
 namespace hydroprint::rig {
 
-/// Return stable names: "OFFLINE", "RIG_NOT_HOMED", "LINK_LOST", "HOME".
+/// Return names that never change, for the API and records: "OFFLINE", "RIG_NOT_HOMED",
+/// "LINK_LOST", "HOME".
 [[nodiscard]] std::string_view name(State state);
 [[nodiscard]] std::string_view name(Motion motion);
 [[nodiscard]] std::string_view name(Cause cause);

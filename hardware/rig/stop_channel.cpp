@@ -63,7 +63,7 @@ void StopChannel::run() {
       tripped_ = true;
       stop_ = true;
     }
-    // Errors are ignored here: the control loop sees the result when it polls the drive.
+    // Errors are ignored: the control loop sees whether the drive stopped when it polls.
     stopping_ = true;
     if (stop_.exchange(false)) (void)line_.stop(kPatience);
     stopping_ = false;

@@ -25,10 +25,10 @@ class StopChannel {
 
   /// Stops the drive. Thread-safe; returns immediately in every situation.
   void stop() noexcept;
-  /// Returns whether a stop is still being sent to the drive. It would also stop a motion that is
-  /// started now.
+  /// Returns whether a stop is still being sent to the drive. That stop would also end a motion
+  /// that is started now.
   [[nodiscard]] bool is_busy() const noexcept { return stop_ || stopping_; }
-  /// Connects in advance. Returns immediately.
+  /// Has the thread connect in advance. Returns immediately.
   void prepare() noexcept;
 
   /// For the control loop: sets whether a motion is in progress, and the time of the last valid

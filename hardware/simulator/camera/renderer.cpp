@@ -17,9 +17,11 @@ namespace {
 
 constexpr int kPacket = 8;
 static_assert(kWidth_px * kHeight_px / 2 % kPacket == 0);
-/// Squared cosine of the angle to the normal below which nothing is measured.
+/// Nothing is measured if the squared cosine of the angle between ray and normal is below this
+/// value: less than 10 degrees between ray and surface.
 const float kFlattest = static_cast<float>(std::pow(std::sin(std::numbers::pi / 18), 2));
-/// Start of a ray to the light, as a share of its length, so that it does not hit its own surface.
+/// Start of a ray to the light, as a fraction of its length, so that the ray does not hit the
+/// surface that it leaves.
 constexpr float kClear = 5e-4F;
 
 /// Owns an Embree handle.
@@ -51,7 +53,7 @@ Tree empty_tree(RTCDevice device) {
   return out;
 }
 
-/// Adds a mesh to a tree.
+/// Adds a mesh to a tree. Returns false if Embree has too little memory.
 bool add(RTCDevice device, RTCScene tree, const simulated_scene::Mesh& mesh) {
   if (mesh.triangles.empty()) return true;
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -83,8 +85,8 @@ struct Renderer::Rays {
   Lens lens;
   std::vector<Eigen::Vector2f> directions;  // directions of the pixels, z = 1
   Device device;
-  Tree hanging;                   // G
-  Tree all;                       // F
+  Tree hanging;                   // in the gripper frame G
+  Tree all;                       // in the film frame F
   RTCGeometry gripper = nullptr;  // instance of `hanging` in `all`, which owns it
   unsigned gripper_id = RTC_INVALID_GEOMETRY_ID;
   std::vector<simulated_scene::MarkerState> markers;  // state of the markers in `all`
@@ -197,7 +199,8 @@ bool faces(const Packet& packet, int i, const Eigen::Matrix3f& turn) {
   return along * along >= kFlattest * normal.squaredNorm() * direction.squaredNorm();
 }
 
-/// Rays from the hit points to the light; `valid` selects them.
+/// Returns the rays from the hit points to the light; only those selected by `valid` are
+/// meaningful.
 RTCRay8 towards(const Packet& packet, const Eigen::Vector3f& light) {
   alignas(32) RTCRay8 out;
   const RTCRay8& in = packet.rays.ray;

@@ -24,7 +24,7 @@ class Renderer {
   /// Renders depths without errors from a pose X_FC (simulated_scene::camera_pose). A depth is 0
   /// where nothing is hit, or where the angle between ray and surface is less than 10 degrees
   /// (Nguyen et al. 2012: no measurements there).
-  /// @param lit  only where the projector's light arrives as well
+  /// @param lit  a depth is also 0 where the projector's light does not arrive
   [[nodiscard]] Depths look(const simulated_scene::Sight& sight, const Pose& X_FC, bool lit = true);
 
   /// Renders a frame of the scenery's own camera at its pose for that time, with all of its errors

@@ -7,12 +7,12 @@
 namespace hydroprint::simulated_camera {
 namespace {
 
-/// A relative jump to a neighbour's depth beyond this is an edge. The correlation window (9 x 9
-/// pixels, Konolige and Mihelich 2011) sees two surfaces there, and about half of the pixels have
-/// no measurement.
+/// A pixel whose depth differs from a neighbour's by more than this fraction is at an edge. The
+/// correlation window (9 x 9 pixels, Konolige and Mihelich 2011) sees two surfaces there, and about
+/// half of the pixels have no measurement.
 constexpr float kEdgeJump = 0.02F;
 constexpr std::uint64_t kMissing =
-    0x80000000U;  ///< probability of a missing pixel, in units of 2^-32
+    0x80000000U;  ///< probability of a missing pixel at an edge, in units of 2^-32
 
 /// Mixes the bits of a word (the finaliser of Steele, Lea and Flood's SplitMix, 2014).
 std::uint64_t mixed(std::uint64_t x) {

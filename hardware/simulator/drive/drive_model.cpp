@@ -9,7 +9,7 @@ namespace {
 using drive::Command;
 
 constexpr double kScan_s = 1e-3;
-// a released carriage catches up at this multiple of the largest speed
+// Speed of a carriage that is released after a stall, as a multiple of the largest speed.
 constexpr double kCatchUp = 3;
 
 Goal velocity_goal(const Machine& machine, double v_mm_per_s) {
@@ -44,7 +44,7 @@ bool is_homing(const Model& model) {
          model.mode == Mode::kHomeToZero;
 }
 
-/// The direction of the drive's motion: -1, 0, 1.
+/// Returns the direction of the commanded motion: -1, 0 or 1.
 int direction(const Model& model) {
   const double ahead = model.goal.kind == Goal::Kind::kPosition
                            ? model.goal.target_mm - model.demand.x_mm

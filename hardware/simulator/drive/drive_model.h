@@ -16,7 +16,7 @@ struct Machine {
   double travel_mm = 300;
   /// Distance of the limit switches from the ends of the travel.
   double end_switches_beyond_mm = 5;
-  double hard_stops_beyond_mm = 8;  ///< the carriage stops there
+  double hard_stops_beyond_mm = 8;  ///< distance of the hard stops from the ends of the travel
   double max_speed_mm_per_s = 20;
   double acceleration_mm_per_s2 = 200;
   /// Deceleration of stop, watchdog, alarms and the brake.
@@ -24,10 +24,10 @@ struct Machine {
   double homing_speed_mm_per_s = 10;
   double back_off_speed_mm_per_s = 1;
   double largest_following_error_mm = 1;
-  double jog_dead_man_s = 0.2;  ///< 0: jogs need no refresh
+  double jog_dead_man_s = 0.2;  ///< time after its last command at which a jog ends; 0: never
   double watchdog_s = 0.25;     ///< 0: off
   WatchdogAction watchdog_action = WatchdogAction::kStop;
-  bool enables_itself = false;  ///< has no enable command
+  bool enables_itself = false;  ///< holds torque without an enable command
 };
 
 /// External inputs and faults.
@@ -55,8 +55,8 @@ enum class Mode {
   kHold,
   kMove,
   kJog,
-  kHomeSeek,     ///< up to the switch
-  kHomeBackOff,  ///< slowly down until the switch releases
+  kHomeSeek,     ///< moves up until the switch is pressed
+  kHomeBackOff,  ///< moves down slowly until the switch is released
   kHomeToZero,
   kStopToHold,
   kStopToOff,

@@ -98,7 +98,7 @@ tl::unexpected<Error> refuse(std::string_view line) {
               fmt::format("\"{:.80}\" is not a known action. Use: {}", line, action_help()));
 }
 
-/// Parses COUNT at words[at], if present.
+/// Parses COUNT at words[at], if present. Returns false if it is malformed or not the last word.
 bool take_count(const Words& words, std::size_t at, ReplyFault& reply_fault) {
   if (words.size() == at) return true;
   if (words.size() > at + 1) return false;

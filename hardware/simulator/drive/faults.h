@@ -37,19 +37,19 @@ struct Action {
   enum class Kind {
     kReplyFault,
     kClear,    ///< clears all faults, including pressed, stalled and frozen inputs
-    kPress,    ///< `input`
-    kRelease,  ///< `input`
+    kPress,    ///< activates `input`
+    kRelease,  ///< deactivates `input`
     kUnplug,
     kReplug,
     kReboot,     ///< silent for `pause`, then switched on
-    kCamera,     ///< becomes `camera`
-    kMarker,     ///< the marker `name` becomes `marker`
+    kCamera,     ///< sets the state of the camera to `camera`
+    kMarker,     ///< sets the state of the marker `name` to `marker`
     kPush,       ///< moves the marker `name` by `push_mm`
-    kSetObject,  ///< sets the object's pose from the file `name`, or replaces the object by `mesh`
-    kShow,       ///< shows `mesh` to the camera at the pose of the file `name`; empty: nothing
+    kSetObject,  ///< sets the object's pose from file `name`; replaces the object if `mesh` is set
+    kShow,       ///< shows only `mesh`, at the pose in the file `name`; if empty, shows the rig
     kState,
-    kScenery,  ///< requests of the camera driver: the scenery and its variable part
-    kSight,
+    kScenery,  ///< returns the fixed part of the scene, for the camera driver
+    kSight,    ///< returns the variable part of the scene, for the camera driver
     kHelp,
   };
   enum class Input { kStopButton, kPositiveEnd, kNegativeEnd, kStall, kFreeze };
@@ -69,7 +69,7 @@ struct Action {
 /// for other text.
 [[nodiscard]] Result<Action> parse_action(std::string_view line);
 
-/// An action at a time measured from the start.
+/// An action and its time, measured from the start of the rig.
 struct TimedAction {
   std::chrono::milliseconds at{0};
   Action action;

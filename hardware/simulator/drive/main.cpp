@@ -106,11 +106,15 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->type_name("FILE");
   app.add_option("--scene", arguments.scene, "Scene file: object in the gripper, travel, water")
       ->type_name("FILE");
-  app.add_option("--tcp", arguments.tcp,
-                 "Port of 127.0.0.1 to listen on, 0: any; default 1502, none with --rtu alone")
+  app.add_option(
+         "--tcp", arguments.tcp,
+         "Port of 127.0.0.1 to listen on, 0: any free port; default 1502, none with --rtu alone")
       ->check(CLI::Range(0, 65535))
       ->type_name("PORT");
-  app.add_option("--rtu", arguments.rtu, "Link to create to a pseudo-terminal")->type_name("PATH");
+  app.add_option(
+         "--rtu", arguments.rtu,
+         "Path of a symbolic link to create; it leads to the pseudo-terminal of the serial line")
+      ->type_name("PATH");
   app.add_option("--baud", arguments.baud, "Baud rate of the serial line; default 115200");
   app.add_option("--parity", arguments.parity, "Parity of the serial line: N, E or O; default E");
   app.add_option("--stop-bits", arguments.stop_bits,
@@ -118,12 +122,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--control", arguments.control,
                  "Control socket to create; it accepts actions, one per line")
       ->type_name("PATH");
-  app.add_option("--fault", arguments.faults, "Actions and their times")->type_name("LIST");
+  app.add_option("--fault", arguments.faults, "Actions with optional times, separated by commas")
+      ->type_name("LIST");
   app.add_option("--watchdog-s", arguments.watchdog_s,
-                 "Time of the drive's communication watchdog; default: as the profile requires")
+                 "Seconds until the drive's communication watchdog acts; 0: off; default: the "
+                 "longest that the profile permits")
       ->check(CLI::Range(0.0, 60.0));
   app.add_option("--watchdog-action", arguments.watchdog_action,
-                 "Register value of the watchdog's action")
+                 "Register value of the watchdog's action; default: the profile's first that stops "
+                 "the axis")
       ->check(CLI::Range(0, 65535));
   app.add_flag("--json", arguments.json, "Print the addresses as JSON");
 }

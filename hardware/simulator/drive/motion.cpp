@@ -10,8 +10,8 @@ namespace {
 constexpr double kTolerance_mm = 1e-9;
 constexpr double kUnlimited_s = std::numeric_limits<double>::infinity();
 
-/// Constant acceleration for a time. Afterwards the velocity is exactly `end_v` (no drift) and, in
-/// the last piece, the position is exactly the target.
+/// Constant acceleration for `duration_s`. Afterwards the velocity is exactly `end_v` (no drift)
+/// and, in the last piece, the position is exactly the target.
 struct Piece {
   double acceleration = 0;
   double duration_s = kUnlimited_s;
@@ -44,7 +44,7 @@ Piece towards_gap(double gap, double speed, const Goal& goal) {
   if (speed > goal.speed_mm_per_s) return ramp(speed, goal.speed_mm_per_s, braking);
   if (speed == goal.speed_mm_per_s) return {0, (gap - stop_gap) / speed, speed, false};
   const double gain = goal.acceleration_mm_per_s2;
-  // Where acceleration from here meets the braking parabola that ends at the target.
+  // The speed at which acceleration from here meets the braking parabola that ends at the target.
   const double peak =
       std::sqrt((2 * gap * gain * braking + speed * speed * braking) / (gain + braking));
   return ramp(speed, std::min(peak, goal.speed_mm_per_s), gain);

@@ -45,7 +45,7 @@ void Registers::make(Space space, std::uint16_t address, int words) {
 
 void Registers::put(const drive::Field& field, double value) {
   const auto words = drive::encode(field.format, value);
-  // values that cannot be encoded (rounded to 0) are 0
+  // A value that cannot be encoded (out of range, or rounded to 0) is stored as 0.
   for (int i = 0; i < field.format.words; ++i) {
     memory_[{field.space, static_cast<std::uint16_t>(field.address + i)}] =
         words ? (*words)[static_cast<std::size_t>(i)] : std::uint16_t{0};

@@ -18,11 +18,11 @@ namespace hydroprint::simulated_drive {
 class Registers {
  public:
   /// Initialises the registers with the profile's identity and the given watchdog settings.
-  /// `watchdog_action` is the value of the register; it is ignored if the profile has no such
-  /// register.
+  /// `watchdog_action` is the content of the register that selects the watchdog's action; it is
+  /// ignored if the profile has no such register.
   Registers(drive::DriveProfile profile, double watchdog_s, std::uint16_t watchdog_action);
 
-  /// Writes the drive's status. Uses only the bits of `state`, not its texts.
+  /// Stores the drive's state in the registers; ignores its times and texts.
   void set_state(const drive::DriveState& state);
 
   /// Returns `count` words; nullopt if one of them does not exist (Modbus exception 2).
@@ -38,7 +38,7 @@ class Registers {
   [[nodiscard]] std::optional<Order> order(std::uint16_t address,
                                            std::span<const std::uint16_t> words) const;
 
-  /// Returns the current values of the registers.
+  /// Return the watchdog settings now in the registers, which a client may have changed.
   [[nodiscard]] double watchdog_s() const;
   [[nodiscard]] WatchdogAction watchdog_action() const;
 

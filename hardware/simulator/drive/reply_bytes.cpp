@@ -37,7 +37,7 @@ void damage(std::vector<std::uint8_t>& reply, ReplyFaultKind fault) {
   }
 }
 
-/// Sends without the signal that a closed socket would raise.
+/// Writes to a socket (without SIGPIPE if it is closed) or to another descriptor.
 ssize_t write_some(int descriptor, std::span<const std::uint8_t> bytes) {
   const ssize_t sent = ::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (sent >= 0 || errno != ENOTSOCK) return sent;

@@ -18,7 +18,8 @@ namespace hydroprint::simulated_drive {
                                                   std::vector<std::uint8_t> reply,
                                                   ReplyFaultKind fault);
 
-/// Writes all bytes to a descriptor, which may be non-blocking. Stops if the descriptor is closed.
+/// Writes all bytes to a descriptor, which may be non-blocking. Gives up if the descriptor is
+/// closed, or accepts nothing for 1 s.
 void write_all(int descriptor, std::span<const std::uint8_t> bytes);
 
 }  // namespace hydroprint::simulated_drive

@@ -29,8 +29,8 @@ struct Scene {
   double travel_mm = 300;
   double start_mm = 50;   ///< position of the carriage when the rig is switched on
   double water_mm = 200;  ///< axis position at which the gripper's origin is level with the water
-  Eigen::Vector2d film_mm{210, 297};             ///< size for which the sliding bars are set
-  std::vector<simulated_scene::Marker> markers;  ///< true positions
+  Eigen::Vector2d film_mm{210, 297};             ///< film size to which the sliding bars are set
+  std::vector<simulated_scene::Marker> markers;  ///< at their true positions
   std::optional<Camera> camera;                  ///< nullopt: no camera
 };
 

@@ -17,9 +17,8 @@ namespace hydroprint::simulated_drive {
 /// the terminal; its users then get errors immediately, as when an adapter is unplugged.
 class SerialServer {
  public:
-  /// @param line  device: path of the link to the terminal (an existing link is replaced); baud,
-  /// parity
-  ///   and stop bits determine the timing
+  /// @param line  device: path of the symbolic link to the terminal (an existing link is replaced);
+  ///              baud, parity and stop bits determine the timing
   [[nodiscard]] static Result<std::unique_ptr<SerialServer>> start(Plant& plant,
                                                                    const drive::Endpoint& line);
   ~SerialServer();
@@ -38,7 +37,7 @@ class SerialServer {
   int slave_ = -1;  // kept open, because otherwise reading from the master fails
   _modbus* modbus_ = nullptr;
   std::vector<std::uint8_t> adu_;
-  // Time at which the line will have been silent long enough.
+  // End of the silence that is required after the last reply.
   std::chrono::steady_clock::time_point free_at_;
   std::atomic<bool> ends_ = false;
   std::thread thread_;

@@ -15,8 +15,8 @@ namespace hydroprint::simulated_drive {
 /// A server socket on loopback or at a path, with a thread for every connection.
 class SocketServer {
  public:
-  /// Serves a connection until it ends; the descriptor is closed afterwards. Must return when a
-  /// read reports a closed connection.
+  /// Serves a connection until it ends; the descriptor is closed afterwards. The function must
+  /// return when a read reports a closed connection.
   using Serve = std::function<void(int descriptor)>;
 
   /// Listens on a port of 127.0.0.1 (0: any free port).

@@ -17,7 +17,7 @@ struct Free {
   void operator()(modbus_t* modbus) const { modbus_free(modbus); }
 };
 
-// libmodbus parses requests. Replies are built here, because they may have to be wrong.
+// libmodbus parses requests. Replies are built here, because a fault may require an incorrect one.
 void serve(Plant& plant, int descriptor) {
   const std::unique_ptr<modbus_t, Free> modbus(modbus_new_tcp("127.0.0.1", 0));
   modbus_set_socket(modbus.get(), descriptor);

@@ -69,7 +69,7 @@ VirtualRig::~VirtualRig() {
 Status VirtualRig::plug() {
   const std::scoped_lock lock(plugs_);
   if (options_.tcp_port && !tcp_) {
-    // Uses the port that was assigned at the first start.
+    // When plugged in again, uses the port of the first start.
     HP_ASSIGN_OR_RETURN(tcp_, serve_tcp(plant_, tcp_port_ > 0 ? tcp_port_ : *options_.tcp_port));
     if (tcp_port_ == 0) tcp_port_ = tcp_->port();
   }

@@ -45,8 +45,8 @@ class VirtualRig {
   VirtualRig(const VirtualRig&) = delete;
   VirtualRig& operator=(const VirtualRig&) = delete;
 
-  /// Performs an action and returns the response for the control socket: "ok", the state as JSON,
-  /// or help.
+  /// Performs an action and returns the response for the control socket: "ok", the requested data
+  /// as JSON, or the help.
   [[nodiscard]] Result<std::string> perform(const Action& action);
 
   /// Returns the response to a line of the control socket: that of perform(), or "error: ...".
@@ -67,7 +67,7 @@ class VirtualRig {
   Plant plant_;
   int tcp_port_ = 0;  // set before any thread starts, then constant
   CameraControl camera_control_;
-  std::mutex plugs_;  // protects the members below
+  std::mutex plugs_;  // protects tcp_, serial_ and boots_at_
   std::unique_ptr<SocketServer> tcp_;
   std::unique_ptr<SerialServer> serial_;
   std::optional<std::chrono::steady_clock::time_point> boots_at_;

@@ -51,7 +51,7 @@ OniStatus DepthStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return give(simulated_camera::kLeast_mm, data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
-      // Larger depths would be altered by a recording.
+      // A recording alters depths above this value.
       return give(simulated_camera::kMost_mm, data, size);
     case ONI_STREAM_PROPERTY_CROPPING:
       // Without this property, the player of recordings drops every frame.
@@ -88,7 +88,7 @@ OniStatus DepthStream::start() {
   const auto sight = line->ask_until_deadline("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
   if (sight && sight->camera == simulated_scene::CameraState::kHung) {
-    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // like a real driver
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // like a real driver that hangs
   }
   stop();
   ends_ = false;

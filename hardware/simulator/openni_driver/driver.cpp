@@ -110,8 +110,9 @@ class Driver : public oni::driver::DriverBase {
     return nullptr;
   }
 
-  /// Returns the camera information registered with OpenNI2, and registers it first if the camera
-  /// exists. OpenNI2 identifies it by this address.
+  /// Returns the information under which the camera is registered with OpenNI2; registers the
+  /// camera first if necessary. Returns nullptr if the camera does not exist. OpenNI2 identifies a
+  /// camera by the memory address of this information.
   const OniDeviceInfo* known(std::string_view uri) {
     const std::scoped_lock lock(mutex_);
     for (const OniDeviceInfo& info : infos_) {

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-// A scene may have millions of triangles.
+// Limits the text to 1 GiB, because a scene may have millions of triangles.
 constexpr JsonLimits kLimits{std::size_t{1} << 30};
 
 json array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -28,7 +28,7 @@ json json_of(const Body& body) {
   return {{"name", body.name}, {"hangs", body.hangs}, {"points", points}, {"triangles", triangles}};
 }
 
-/// Invalid values throw an exception of the JSON library, like missing fields.
+/// Decodes a body. Throws an exception of the JSON library if a field is missing or invalid.
 Body body_of(const json& from) {
   Body out{from.at("name"), {}, from.at("hangs")};
   const json& points = from.at("points");

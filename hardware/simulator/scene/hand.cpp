@@ -10,9 +10,9 @@
 namespace hydroprint::simulated_scene {
 namespace {
 
-/// A frequency band of the motion of a hand held still. Physiological tremor has 8 to 12 Hz and
-/// some tenths of a millimetre; at lower frequencies the arm sways by millimetres (Elble and
-/// Koller, Tremor, 1990).
+/// A frequency band of the motion of a hand held still. Physiological tremor has a frequency of 8
+/// to 12 Hz and an amplitude of some tenths of a millimetre; at lower frequencies the arm sways by
+/// millimetres (Elble and Koller, Tremor, 1990).
 struct Sway {
   double least_hz, most_hz;
   double amplitude_mm, amplitude_rad;
@@ -49,7 +49,8 @@ Shake shake(std::uint64_t seed, double time_s) {
   return out;
 }
 
-/// Closed Catmull-Rom spline through the stand's positions.
+/// Returns the camera's position at a time, on a closed Catmull-Rom spline through the stand's
+/// positions.
 Eigen::Vector3d place(const CameraStand& stand, double time_s) {
   const int count = static_cast<int>(stand.via_mm.size()) + 1;
   if (count == 1) return stand.at_mm;

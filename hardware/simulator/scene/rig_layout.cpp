@@ -10,11 +10,11 @@ namespace {
 constexpr double kBarBottom_mm = -4;
 constexpr double kGap_mm = 25;  ///< between bars and wall of the vat
 constexpr double kWall_mm = 8;  ///< thickness of the vat's walls
-constexpr double kRim_mm = 20;  ///< above the water
+constexpr double kRim_mm = 20;  ///< height of the vat's rim above the water
 constexpr double kTable_mm = -180;
 constexpr double kTableHalf_mm = 1500;
 
-/// Four boxes around a rectangle of half size `inner`, `width` wide.
+/// Returns four boxes, `width` wide, around a rectangle of half size `inner`.
 Mesh frame(const Eigen::Vector2d& inner, double width, double bottom, double top) {
   const Eigen::Vector2d outer = inner.array() + width;
   return joined({box({-outer.x(), -outer.y(), bottom}, {-inner.x(), outer.y(), top}),
@@ -28,7 +28,7 @@ Mesh frame(const Eigen::Vector2d& inner, double width, double bottom, double top
 std::vector<Marker> nominal_markers(const Eigen::Vector2d& film_mm) {
   const Eigen::Vector2d bar = film_mm.array() / 2 + kBarWidth_mm / 2;
   constexpr double kQuarter = std::numbers::pi / 2;
-  // A marker that is knocked over falls along its bar.
+  // The rotations are chosen so that a marker that is knocked over falls along its bar.
   return {{"left", {-bar.x(), -0.20 * film_mm.y(), kBarTop_mm}, kQuarter},
           {"right", {bar.x(), 0.30 * film_mm.y(), kBarTop_mm}, kQuarter},
           {"near", {-0.15 * film_mm.x(), -bar.y(), kBarTop_mm}, 0},

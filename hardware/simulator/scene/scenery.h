@@ -26,16 +26,16 @@ struct Body {
 /// A pyramid on a sliding bar.
 struct Marker {
   std::string name;                                 ///< "left", "right", "near", "far"
-  Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();  ///< centre of its base, F
-  double turn_rad = 0;                              ///< about z, seen from above
+  Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();  ///< centre of its base, in frame F
+  double turn_rad = 0;                              ///< about z, counterclockwise from above
 };
 
-/// Position and orientation of the camera (F). It looks along its optical axis, with the far side
-/// of the film at the top of its image.
+/// Position and orientation of the camera, in frame F. It looks along its optical axis, with the
+/// far side of the film at the top of its image.
 struct CameraStand {
   Eigen::Vector3d at_mm{0, -350, 720};
   Eigen::Vector3d looks_at_mm{0, 0, 0};
-  double turn_rad = 0;  ///< about its axis
+  double turn_rad = 0;  ///< rotation about its optical axis
   /// Path of a hand-held camera: from `at_mm` through these positions and back in `period_s`,
   /// repeatedly. Empty: the camera is stationary.
   std::vector<Eigen::Vector3d> via_mm;
@@ -63,7 +63,7 @@ struct Sight {
   double time_s = 0;
   double gripper_height_mm = 150;  ///< height of the gripper's origin above the water
   CameraState camera = CameraState::kWell;
-  std::vector<MarkerState> markers;  ///< same order as Scenery::markers; missing entries are well
+  std::vector<MarkerState> markers;  ///< same order as Scenery::markers; missing: kWell
 };
 
 /// Returns the pose that transforms gripper coordinates to F.

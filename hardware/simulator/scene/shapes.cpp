@@ -11,7 +11,8 @@ constexpr int kRodSides = 32;
 constexpr double kCoverWidth_mm = 76;
 constexpr double kCoverHeight_mm = 52;
 
-/// Tipped over its edge at x = width / 2, until that side lies on the ground.
+/// Returns the pose of a marker that is tipped over its edge at x = width / 2 until its side face
+/// there lies on the ground.
 Pose tipped_over() {
   constexpr double kHalf_mm = kMarkerWidth_mm / 2;
   const double slope = std::atan2(kMarkerHeight_mm, kHalf_mm);
