@@ -15,12 +15,13 @@ using Eigen::Vector2d;
 
 constexpr int kMostCells = 2048;  // along a side
 constexpr int kPointsPerCell = 4;
-/// Gauss points relative to the middle, as fractions of the length. They are exact for cubics, such
-/// as the integrand along a piece of an edge within one cell.
+/// Points of the two-point Gauss quadrature, relative to the middle of an interval, as fractions of
+/// its length. The quadrature is exact for cubics, such as the integrand along a piece of an edge
+/// within one cell.
 constexpr std::array<double, 2> kGauss = {-0.28867513459481287, 0.28867513459481287};
 constexpr double kOnEdge_cells = 1e-9;
-/// For triangles with less than twice this area, in cells, rounding errors would be visible in a
-/// mean.
+/// If twice the area of a triangle, in square cells, is below this value, rounding errors would be
+/// visible in its mean.
 constexpr double kFlat_cells2 = 1e-6;
 
 /// One axis of the field, divided at the nodes and at the field's two ends. Strip i in [0, cells]
@@ -35,7 +36,7 @@ struct Axis {
     if (!(u >= begin())) return -1;
     return u >= end() ? cells + 1 : static_cast<int>(u);
   }
-  /// Returns the end of strip i and start of strip i + 1.
+  /// Returns the end of strip i, which is the start of strip i + 1.
   [[nodiscard]] double end_of(int i) const { return clamp(i + 1); }
 };
 
@@ -194,7 +195,8 @@ double InkField::mean(const Vector2d& a_mm, const Vector2d& b_mm, const Vector2d
   if (nodes_.empty() || !std::isfinite(twice_area) || std::abs(twice_area) < kFlat_cells2) {
     return at((a_mm + b_mm + c_mm) / 3);
   }
-  // Green's theorem: the region left of the edges that go up minus the region left of the others.
+  // Green's theorem: the integral over the region left of the edges that go up, minus that over the
+  // region left of the other edges.
   const double integral = left_of_edge(a, b) + left_of_edge(b, c) + left_of_edge(c, a);
   return rounded_in(2 * integral / twice_area);
 }

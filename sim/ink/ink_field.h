@@ -35,7 +35,7 @@ struct InkGrid {
 /// The amount of ink t = C + M + Y + K on a printed film (section 4.3), in [0, 4], at printed
 /// points in F. It is defined by means over the cells of a grid: bilinear between the cells'
 /// centres, constant from the outermost centres to the edge of the grid, and 0 beyond. Its integral
-/// over the film is therefore that of the cells.
+/// over the film therefore equals the sum of the means times the area of a cell.
 class InkField {
  public:
   /// Creates a field without ink.

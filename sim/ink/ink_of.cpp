@@ -15,13 +15,15 @@
 namespace hydroprint::ink {
 namespace {
 
-/// Access to an image by rows (8-bit sRGB, row 0 at the top); `row` may store the row in `buffer`.
+/// Access to an image by rows (8-bit sRGB, row 0 at the top); `row` returns row y, which it may
+/// store in `buffer`.
 struct Rows {
   int width, height;
   std::function<const std::uint8_t*(int y, std::vector<std::uint8_t>& buffer)> row;
 };
 
-/// The range of pixels that a cell covers along one axis, in pixels from the edge of the first.
+/// The range of pixels that a cell covers along one axis, in pixels from the outer edge of the
+/// first pixel.
 struct Span {
   double from, to;
 
@@ -63,7 +65,7 @@ Result<InkField> average(const Rows& image, const film::Outline& outline, const 
   const Eigen::Vector2d px_mm =
       extent.size_mm.cwiseQuotient(Eigen::Vector2d(image.width, image.height));
   const Eigen::Vector2d cell_px = grid.cell_mm.cwiseQuotient(px_mm);
-  // Position counted from the top, like the image's rows.
+  // Start of the first cell; y is counted from the top, like the image's rows.
   const Eigen::Vector2d first_px =
       Eigen::Vector2d(outline.min_mm.x() - extent.low_mm.x(),
                       extent.low_mm.y() + extent.size_mm.y() - outline.max_mm.y())
@@ -83,7 +85,7 @@ Result<InkField> average(const Rows& image, const film::Outline& outline, const 
       }
     }
     for (std::size_t i = 0; i < across.size(); ++i) {
-      cells[i] = std::min(cells[i] / cell_px.prod(), kMostInk);  // rounding
+      cells[i] = std::min(cells[i] / cell_px.prod(), kMostInk);  // removes rounding errors
     }
     return Status{};
   }));

@@ -13,7 +13,7 @@ namespace hydroprint::ink {
 namespace {
 
 /// Limit on the size of files and of the tables that they announce. Real profiles have about 1 MiB,
-/// but the library would allocate half a GiB if a damaged header announces it.
+/// but the library would allocate half a GiB if a damaged header announced that much.
 constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
 constexpr std::size_t kHeader_bytes = 128;
 

@@ -22,7 +22,7 @@ class PrinterColours {
   /// Returns 4 for C M Y K and 3 for R G B.
   [[nodiscard]] int channels() const;
   /// May be called from any thread.
-  /// @param out  count times channels() values, at most 65535
+  /// @param out  receives `count` times channels() values from 0 to 65535
   void convert(const std::uint8_t* rgb, std::size_t count, std::uint16_t* out) const;
   /// Returns the profile itself, to embed in converted images.
   [[nodiscard]] const std::string& icc_profile() const { return icc_profile_; }
