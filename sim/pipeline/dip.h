@@ -10,7 +10,8 @@
 namespace hydroprint::pipeline {
 
 /// Computes a dip with the method of section 4: mesh, pose, waterline, film mesh, velocity, flow
-/// map. Errors: kFailedPrecondition if the first contact misses the film.
+/// map. Errors: those of these stages, such as kFailedPrecondition if the first contact misses the
+/// film.
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
                               const Context& context);
 
@@ -18,7 +19,7 @@ namespace hydroprint::pipeline {
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, StokesPass first, const DipOptions& options,
                               const Context& context);
 
-/// Combines figures, warnings and flow map.
+/// Computes figures and warnings, and combines them with the flow map and the first pass.
 /// @param unsettled_mm  see DipFigures
 [[nodiscard]] Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map,
                                double unsettled_mm, const DipOptions& options);

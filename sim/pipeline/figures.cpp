@@ -14,10 +14,10 @@
 namespace hydroprint::pipeline {
 namespace {
 
-constexpr double kStokesStretch = 1.3;  ///< the paper's 0.3 is stretch beyond rest (section 4.4)
+constexpr double kStokesStretch = 1.3;  ///< section 4.4: 0.3 beyond the rest length
 
-/// If a sheet still moves by more than this at the end, there is a warning: about a pixel at 300
-/// dpi.
+/// A sheet that still moves by more than this in the last sweep causes a warning: about a pixel at
+/// 300 dpi.
 constexpr double kUnsettled_mm = 0.08;
 
 struct Face {
@@ -33,7 +33,7 @@ Face face_of(const waterline::Body& body, std::size_t t) {
   return {0.5 * length, length > 0 ? std::acos(std::clamp(-normal.z() / length, -1.0, 1.0)) : 0};
 }
 
-/// Shares of the surface, by area.
+/// Areas of the surface and of parts of it, mm2.
 struct Shares {
   double total = 0, reached = 0, clamped = 0, wrinkled = 0, torn = 0;
 };
@@ -58,7 +58,7 @@ std::string at_immersion(double immersion_mm) {
   return fmt::format("{:.2f} mm immersion", immersion_mm);
 }
 
-/// Pages parse this text.
+/// Returns the immersion and position of a trap as text, which the web pages parse.
 std::string where_of(const waterline::Trap& trap) {
   return fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(trap.immersion_mm),
                      trap.place_mm.x(), trap.place_mm.y());

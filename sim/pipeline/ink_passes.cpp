@@ -17,10 +17,12 @@ using Eigen::Vector2d;
 /// Resolution of film images that serve only to compute their ink: finer than the cells over which
 /// the ink is averaged.
 constexpr double kInkDpi = 60;
-/// Fraction of the points that must have converged; a few at jumps of the map may never do so.
+/// Fraction of the points that must have converged; a few points at jumps of the map may never
+/// converge.
 constexpr double kMostPoints = 0.999;
 
-/// Coarsens the tiling of the map for such an image, to a fraction of its pixels.
+/// Coarsens the tiles of the map for an image at kInkDpi: the tolerance is about half of its
+/// pixels' size.
 flow::MapOptions coarse(flow::MapOptions map) {
   map.tolerance_mm = 0.25;
   map.least_edge_mm = 0.5;

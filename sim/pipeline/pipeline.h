@@ -34,8 +34,8 @@ struct DipOptions {
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; nullopt: full
   double dip_speed_mm_per_s = 5;
   FilmModel film_model = FilmModel::kSheet;
-  /// True to model inertia as in Algorithm 1; false for the quasistatic sheet. Inertia is slower
-  /// and yields the same result.
+  /// True to model inertia as in Algorithm 1; false for the quasistatic sheet. With inertia, the
+  /// computation is slower and yields the same result.
   bool inertia = false;
   ink::InkField ink;         ///< printed on the film; used by the sheet only
   waterline::Motion motion;  ///< the measured horizontal path; empty: straight down
@@ -44,7 +44,7 @@ struct DipOptions {
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
   sheet::SheetOptions sheet;  ///< drag is taken from the profile
-  flow::MapOptions map;       ///< speed and swelling are taken from above
+  flow::MapOptions map;       ///< dip speed and swelling are taken from the members above
 };
 
 /// Returns the options with every resolution length multiplied by `factor`; a factor below 1
@@ -62,7 +62,7 @@ struct InkPass {
 struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
-  int steps = 0;                 ///< waterlines solved
+  int steps = 0;                 ///< number of waterlines solved
   /// Immersions of the waterlines that were not solved because two of their curves nearly touch.
   std::vector<double> passed_over_mm;
   std::vector<InkPass> ink_passes;
@@ -74,10 +74,11 @@ struct DipFigures {
   double wrinkled_share = 0;
   /// Fraction of the surface where the film is stretched beyond tear_stretch.
   double torn_share = 0;
-  /// Displacement of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
+  /// Displacement of the sheet in the last sweep, where the sheet tears or folds; see
+  /// sheet::SheetFlow.
   double unsettled_mm = 0;
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
-  /// Statistics where theta is not clamped.
+  /// Median, 95th percentile and maximum of the stretch, where theta is not clamped.
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };
 

@@ -9,7 +9,8 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// Side of the predicted texture, in texels: about as many pixels as a film image on A4 at 300 dpi.
+/// Side of the predicted texture, in texels. The texture has about half as many pixels as a film
+/// image on A4 at 300 dpi.
 constexpr int kTextureSide_px = 2048;
 
 Result<PredictedImages> draw(const mesh::Model& model, const Dip& dip,

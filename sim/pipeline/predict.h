@@ -18,7 +18,7 @@ namespace hydroprint::pipeline {
 struct PredictOptions {
   std::filesystem::path mesh;
   double scale = 1;                  ///< millimetres per model unit
-  std::filesystem::path film_image;  ///< any image at the film's size
+  std::filesystem::path film_image;  ///< covers the film; any resolution
   DipOptions dip;                    ///< options of the dip, with the measured pose and path
   int ink_passes = 1;  ///< 0: the film carries the ink of dip.ink, otherwise that of film_image
   bool images = true;  ///< false: computes only the film's landing, without images
@@ -28,7 +28,7 @@ struct PredictOptions {
 struct PredictedImages {
   /// Colour of each point of the surface; NaN: no film arrives.
   std::vector<Eigen::Vector3f> landed;
-  std::optional<image::RgbaImage> texture;  ///< the same colours as a texture; nullopt: no UVs
+  std::optional<image::RgbaImage> texture;  ///< the same colours; nullopt: the model has no UVs
   image::RgbImage picture;                  ///< picture of the object
 };
 

@@ -32,9 +32,10 @@ Status check_materials(const mesh::Model& model) {
   return {};
 }
 
-/// Loading the image libraries takes as long as reading most models. They are loaded before a large
-/// model, because they end the program if there is no memory for them. The calling thread always
-/// loads them, because LeakSanitizer reports libraries whose loading thread has ended.
+/// Reads the model and, if images are needed, loads the image libraries. That takes as long as
+/// reading most models, so it happens at the same time. Before a large model, the libraries are
+/// loaded first, because they end the program if there is no memory for them. The calling thread
+/// always loads them, because LeakSanitizer reports libraries whose loading thread has ended.
 Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
   const auto read = [&](const Context& reading) {
     return mesh::read_model(options.mesh, options.scale, reading);

@@ -15,7 +15,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-constexpr double kFilmMapCell_mm = 1;  ///< contract: film_map.exr
+constexpr double kFilmMapCell_mm = 1;  ///< part of the documented format of film_map.exr
 
 /// The first pass and, if colours are needed, the paint of the object.
 struct PaintedStokesPass {

@@ -15,7 +15,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// Returns the floating film: swollen, together with its clamped edge.
+/// Returns the outline of the floating film, which is swollen together with its clamped edge.
 film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
   outline.min_mm = outline.min_mm.cwiseProduct(swelling);
@@ -27,8 +27,8 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
 /// If their fraction exceeds this, the dip fails.
 constexpr double kMostPassedOver = 0.2;
 
-/// Meshes and solves every waterline separately and in parallel, because Stokes flow does not
-/// depend on the past.
+/// Meshes and solves every waterline separately and in parallel, because Stokes flow at one
+/// waterline does not depend on earlier ones.
 /// @return nullopt for a waterline that is skipped
 Result<std::vector<std::optional<velocity::VelocityField>>> solve(
     const film::Outline& outline, waterline::Waterlines& waterlines,
