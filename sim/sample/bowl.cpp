@@ -62,8 +62,7 @@ Sample make_bowl() {
     }
     const double v = p.arc_mm / length_mm;
     uv.push_back(mesh.add_uv({is_middle ? 0.5 / kAround : 0, v}));
-    for (int i = 1; i <= kAround;
-         ++i) {  // at a middle, it lies between the coordinates of the rings
+    for (int i = 1; i <= kAround; ++i) {  // at a middle, u lies between those of the ring
       mesh.add_uv({std::min<double>(kAround, is_middle ? i + 0.5 : i) / kAround, v});
     }
   }

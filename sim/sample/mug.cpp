@@ -191,15 +191,15 @@ class MugMaker {
             (high + low) / 2 + (high - low) / 2 * std::cos(pi * t)};
   }
 
-  /// Unit vector across the handle, in the plane of its middle line, away from the mug.
+  /// Returns the unit vector across the handle, in the plane of its middle line, away from the mug.
   [[nodiscard]] Eigen::Vector3d outward(double t) const {
     const double half = (row_z(kHighRow) - row_z(kLowRow)) / 2;
     const Eigen::Vector3d along(kHandleReachMm * std::cos(pi * t), 0, -half * std::sin(pi * t));
     return along.normalized().cross(Eigen::Vector3d::UnitY());
   }
 
-  /// Point j of the handle's cross-section at t. The cross-section is round in the middle and
-  /// changes into the holes' rims at the ends.
+  /// Returns point j of the handle's cross-section at t. The cross-section is round in the middle
+  /// and changes into the holes' rims at the ends.
   [[nodiscard]] Eigen::Vector3d handle_point(double t, int j, const std::vector<int>& upper,
                                              const std::vector<int>& lower) const {
     const bool is_upper = t < 0.5;

@@ -21,11 +21,13 @@ struct Maker {
 constexpr std::array kMakers = {
     Maker{"globe", "a globe of radius 60 mm with continents, graticule and marked poles",
           make_globe},
-    Maker{"sphere80", "a sphere of radius 80 mm with a chessboard of 15 degrees", make_sphere80},
+    Maker{"sphere80", "a sphere of radius 80 mm with a chessboard of 15-degree squares",
+          make_sphere80},
     Maker{"board", "a board of 120 x 120 x 10 mm with grid lines every 10 and 2 mm", make_board},
     Maker{"ubend", "a U-shaped tube with a chessboard, its two feet dipped first", make_ubend},
     Maker{"mug", "a mug with handle and cavity and a picture wrapped around it", make_mug},
-    Maker{"bowl", "a deep bowl with a chessboard; no film can cover its inside (Fig. 17)",
+    Maker{"bowl",
+          "a deep bowl with a chessboard; no film can cover its inside (Fig. 17 of the paper)",
           make_bowl}};
 
 std::span<const unsigned char> bytes_of(const std::string& text) {

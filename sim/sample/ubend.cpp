@@ -12,8 +12,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kTubeMm = 12;  // radius
-constexpr double kBendMm = 35;  // radius of the middle line
-constexpr double kLegMm = 60;   // straight part
+constexpr double kBendMm = 35;  // radius of the tube's middle line
+constexpr double kLegMm = 60;   // length of the straight part
 constexpr int kAround = 96;
 constexpr double kCapMm = pi / 2 * kTubeMm;
 constexpr double kLengthMm = 2 * kCapMm + 2 * kLegMm + pi * kBendMm;
@@ -49,7 +49,7 @@ Ring ring_at(double s) {
           kTubeMm};
 }
 
-/// The map's seam runs along the inside of the bend.
+/// Returns point i of a ring. The seam of the texture runs along the inside of the bend.
 Eigen::Vector3d point_on(const Ring& ring, int i) {
   const double angle = pi + 2 * pi * i / kAround;
   const Eigen::Vector3d outward = ring.along.cross(Eigen::Vector3d::UnitY());
