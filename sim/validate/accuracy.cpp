@@ -19,12 +19,13 @@ using Eigen::Vector3d;
 
 bool is_whole(double x) { return std::abs(x - std::round(x)) < 1e-6; }
 
-/// Cross-points of the board's lines, 10 mm apart.
+/// Returns true at the cross-points of the board's lines, which are 10 mm apart.
 bool is_board_cross(const Vector3d& p) {
   return is_whole(p.x() / 10) && is_whole(p.y() / 10) && is_whole(p.z() / 10);
 }
 
-/// Cross-points of the sphere's meridians and parallels, 15 degrees apart.
+/// Returns true at the cross-points of the sphere's meridians and parallels, which are 15 degrees
+/// apart.
 bool is_sphere_cross(const Vector3d& p) {
   return is_whole(theta_deg(p) / 15) && is_whole(std::atan2(p.y(), p.x()) / (15 * kDegree));
 }
@@ -59,7 +60,7 @@ double worst(const mesh::Surface& surface, const std::vector<double>& errors,
       .max;
 }
 
-/// @param body  its name, and the region whose errors determine the scale
+/// @param body  its name, and the region whose errors determine the error picture's scale
 Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& body,
             const Plan& plan, const pipeline::Dip& truth, const std::vector<double>& errors,
             const Context& context) {
@@ -72,7 +73,7 @@ Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& 
                       image::find_views(truth.surface, truth.X_FO, truth.map.tiles, context));
   HP_RETURN_IF_ERROR(setup.show(out, name + "-landed",
                                 image::predicted_picture(landed, film, context),
-                                "The same film landed, by the fine computation."));
+                                "The same film image as it lands in the fine computation."));
   const pipeline::Dip& dip = plan.dip;
   HP_ASSIGN_OR_RETURN(const auto planned,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
@@ -135,9 +136,9 @@ Status sphere(ExperimentContext& setup, Experiment& out, Steps& steps) {
   return show(setup, out, {"sphere80", band(0, 120, "").region}, *plan, truth, errors, fine);
 }
 
-/// Landing point of film on a sphere of radius R dipped in the middle of a circular film of radius
-/// Rv: the exact solution of eqs. (1) and (2), and of the sheet of uniform thickness, solved for
-/// theta.
+/// Returns the landing point of a film point on a sphere of radius R dipped in the middle of a
+/// circular film of radius Rv: the exact solution of eqs. (1) and (2), and of the sheet of uniform
+/// thickness, solved for theta.
 Vector3d exact_landing(const Vector2d& film_mm, double R, double Rv) {
   const double k = std::sqrt(Rv * Rv / (R * R) - 1);
   const double r0 = film_mm.norm();

@@ -117,8 +117,8 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.figures.push_back({"floor_stretch", "median stretch on the floor, film without ink", "",
                          floor, Limit{3, 1e300, "film tears at a stretch of three"}});
   out.figures.push_back(
-      {"floor_stretch_to_exact", "the same over the exact solution for the bowl's outline", "",
-       floor / exact,
+      {"floor_stretch_to_exact", "the same, divided by the exact solution for the bowl's outline",
+       "", floor / exact,
        Limit{0.95, 1.05, "inside a ring the film stretches evenly, by a known formula"}});
   return {};
 }

@@ -120,7 +120,8 @@ Context Steps::next() {
   const int step = begun_++;
   Context context = whole_;
   context.report = [this, step](std::string_view stage, double fraction) {
-    // Rough shares of a dip. A repeated stage does not change the total.
+    // Rough fractions of a dip's duration at which its stages begin and end. A repeated stage does
+    // not change the total.
     struct Share {
       std::string_view stage;
       double begin, end;

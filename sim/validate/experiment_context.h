@@ -26,7 +26,7 @@ enum class Fineness {
   kFine,   ///< all lengths times kFineFactor; represents the physical experiment
 };
 
-/// A body from the paper and its pose in the gripper.
+/// A body from the paper and its pose at the start of the dip.
 struct Body {
   mesh::Model model;
   image::Paint paint;
@@ -83,7 +83,7 @@ class ExperimentContext {
 
 /// Computes the film image of a body's texture and its dip, like ExperimentContext::plan, with any
 /// options.
-/// @param ink_passes  0: assumes a film of uniform thickness
+/// @param ink_passes  0: the film carries the ink in `options` (by default none: uniform thickness)
 [[nodiscard]] Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options,
                                      int ink_passes, double dpi, const Context& context);
 

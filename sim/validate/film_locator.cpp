@@ -32,7 +32,7 @@ Vector3d nearest_on_segment(const Vector2d& p, const Vector2d& a, const Vector2d
   return weights;
 }
 
-/// Barycentric coordinates of the tile's point nearest to p on the film.
+/// Returns the barycentric coordinates of the tile's point nearest to p on the film.
 Vector3d nearest(const flow::MappedTriangle& tile, const Vector2d& p) {
   const Vector3d inside = image::BarycentricMap(tile.film_mm).at(p.x(), p.y());
   if (inside.minCoeff() >= 0) return inside;

@@ -12,12 +12,13 @@ namespace hydroprint::validate {
 /// Finds where points of the film land, by inverting the flow map.
 class FilmLocator {
  public:
-  /// Both must outlive the locator.
+  /// @param surface, tiles  must outlive the locator
   FilmLocator(const mesh::Surface& surface, const std::vector<flow::MappedTriangle>& tiles);
 
-  /// Returns the point of the surface where a film point lands, in O, mm; nullopt if it does not
-  /// land. If there are several, returns the one with the earliest contact, because film that has
-  /// landed does not move. Between tiles, uses the nearest tile within 0.1 mm on the film.
+  /// Returns the point of the surface where a film point lands, in the object frame O, mm; nullopt
+  /// if it does not land. If several points qualify, returns the one with the earliest contact,
+  /// because film that has landed does not move. Between tiles, uses the nearest tile within 0.1 mm
+  /// on the film.
   [[nodiscard]] std::optional<Eigen::Vector3d> at(const Eigen::Vector2d& film_mm) const;
 
  private:

@@ -158,7 +158,7 @@ std::string head_html(const Report& report) {
            "\n";
   }
   out += element("p",
-                 fmt::format("{} of {} figures with a limit are within it.", report.passed,
+                 fmt::format("{} of the {} figures that have a limit are within it.", report.passed,
                              report.passed + report.failed),
                  report.failed == 0 ? "class=\"passed\"" : "class=\"failed\"") +
          "\n<ul>\n";

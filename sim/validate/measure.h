@@ -31,10 +31,10 @@ struct Summary {
                                                          const Context& context);
 
 /// Computes for each point of the surface the distance on the film between the points that land
-/// there in two dips; NaN if no film lands there in one of them.
+/// there in two dips; NaN if no film lands there in one of the dips.
 [[nodiscard]] std::vector<double> film_differences(const pipeline::Dip& a, const pipeline::Dip& b);
 
-/// A part of a body, as a predicate on positions in O.
+/// A part of a body, as a predicate on positions in the object frame O.
 using Region = std::function<bool(const Eigen::Vector3d&)>;
 [[nodiscard]] inline bool everywhere(const Eigen::Vector3d&) { return true; }
 

@@ -30,7 +30,8 @@ Status models(ExperimentContext& setup, Experiment& out, const Context& context)
       "A U-shaped tube is dipped with its two feet first and its bend last. The film between the "
       "legs is stretched during the whole dip and then lands on the bend. There, according to the "
       "paper, the viscous sheet predicts a distortion that Stokes flow does not. Both are computed "
-      "here at the usual settings, for a film of uniform thickness with a chessboard of 5 mm.",
+      "here at the usual settings, for a film of uniform thickness with a chessboard of 5 mm "
+      "squares.",
       "The map shows the distance on the film between the colours that the two models choose for "
       "the same place on the object. There is no photograph to decide which is right. It is only "
       "checked where they differ most."};
@@ -64,7 +65,7 @@ Status models(ExperimentContext& setup, Experiment& out, const Context& context)
   }
   out.tables.push_back(std::move(table));
   out.figures.push_back(
-      {"bend_to_legs_ratio", "mean difference on the bend over that on the legs", "",
+      {"bend_to_legs_ratio", "mean difference on the bend, divided by that on the legs", "",
        out.figures[1].value / out.figures[0].value,
        Limit{1, 1e300,
              "as in Fig. 13, the models differ most on the bend, because the film's thickness "

@@ -13,8 +13,8 @@ namespace hydroprint::validate {
 inline constexpr double kDegree = 3.14159265358979323846 / 180;
 inline constexpr double kSphere80_mm = 80, kGlobe_mm = 60;  ///< radii of the samples
 
-/// Returns the angle, in degrees, between a sphere's surface and the water at a point of first
-/// contact.
+/// Returns the angle, in degrees, between a sphere's surface and the water when the water reaches
+/// the point p.
 [[nodiscard]] inline double theta_deg(const Eigen::Vector3d& p) {
   return std::acos(std::clamp(-p.z() / p.norm(), -1.0, 1.0)) / kDegree;
 }

@@ -136,7 +136,8 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (const auto place = locator.at(points[i])) landed[i].push_back(*place);
     }
-    // Near the lowest point, film lands without stretching: r0 = 2 R sin(theta / 2), a chord.
+    // Near the lowest point, film lands without stretching, at a distance equal to the chord: r0 =
+    // 2 R sin(theta / 2).
     const Vector3d middle(-dip.X_FO.translation().x(), -dip.X_FO.translation().y(), 0);
     const double sag = kGlobe_mm - middle.squaredNorm() / (2 * kGlobe_mm);
     contacts.emplace_back(dip.X_FO.linear().transpose() * (middle - sag * Vector3d::UnitZ()));
@@ -176,10 +177,10 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
                                "these errors"}});
   out.figures.push_back({"spread_at_contact_mm", "spread where the object first touches", "mm",
                          spread[middle], std::nullopt});
-  out.figures.push_back({"spread_at_contact_ratio",
-                         "the same, relative to the spread of the random errors", "",
-                         spread[middle] / scatter(contacts),
-                         Limit{0.97, 1.03, "the film has not moved yet, so both are equal"}});
+  out.figures.push_back(
+      {"spread_at_contact_ratio", "the same, relative to the spread of the random errors", "",
+       spread[middle] / scatter(contacts),
+       Limit{0.97, 1.03, "the film has not moved yet, so the two spreads are equal"}});
 
   HP_ASSIGN_OR_RETURN(const auto film, setup.texture(chessboard(), first));
   HP_ASSIGN_OR_RETURN(const auto views,
@@ -193,7 +194,7 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
                              return values;
                            }};
   return setup.show(out, "spread", image::quantity_picture(views, quantity, first),
-                    "Spread of the landing with random errors; hatched: some dips land no film.");
+                    "Spread of the landing with random errors; hatched: no film in some dips.");
 }
 
 }  // namespace hydroprint::validate

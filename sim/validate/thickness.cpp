@@ -30,7 +30,7 @@ image::RgbImage squares() {
                       });
 }
 
-/// Returns the dip of a film image, with the thickness of the ink printed on it.
+/// Computes the dip of a planned film, with the thickness of the ink printed on it.
 Result<pipeline::Dip> dip_as_printed(const Body& body, const Plan& plan,
                                      pipeline::DipOptions options, const Context& context) {
   options.ink = plan.ink;
@@ -97,13 +97,14 @@ Status thickness(ExperimentContext& setup, Experiment& out, const Context& conte
   HP_RETURN_IF_ERROR(setup.show(out, "film", plans[0].film,
                                 "The film image of the two-step scheme, with its heavy ink."));
   out.figures.push_back(
-      {"thickness_on_to_off", "mean error with the ink's thickness over that without", "",
+      {"thickness_on_to_off", "mean error with the ink's thickness, divided by that without", "",
        out.figures[0].value / out.figures[1].value,
        Limit{0, 0.25, "Fig. 7: using the ink's thickness removes most of the error"}});
   const auto& passes = plans[0].dip.figures.ink_passes;
   if (passes.size() > 1) {
     out.figures.push_back(
-        {"second_pass_to_first", "movement (rms) of the second ink pass over that of the first", "",
+        {"second_pass_to_first",
+         "movement (rms) of the second ink pass, divided by that of the first", "",
          passes[1].moved_rms_mm / passes[0].moved_rms_mm,
          Limit{0, 0.5, "section 4.3: one pass is enough, so the second must move it little"}});
   }

@@ -15,7 +15,7 @@ namespace hydroprint::validate {
 struct ExperimentKind {
   std::string name;
   std::string title;
-  double weight = 1;  ///< typical share of the total time
+  double weight = 1;  ///< typical duration, relative to the other experiments
 };
 
 /// Returns all experiments, in the order of the report.
@@ -32,7 +32,7 @@ using PictureSink = std::function<Status(const std::string& file, const image::R
 struct Report {
   Options options;
   std::vector<Experiment> experiments;
-  int passed = 0, failed = 0;  ///< numbers of figures that have a limit
+  int passed = 0, failed = 0;  ///< numbers of figures within and outside their limits
 };
 
 /// Returns kInvalidArgument for unknown names of experiments.
