@@ -145,8 +145,8 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
-/// Returns a limit far above the number of vertices that the sizes imply. Where two waterlines
-/// touch, the mesher would divide their edges forever.
+/// Returns a limit far above the number of vertices that the sizes imply. Without this limit, the
+/// mesher would divide edges forever where two waterlines touch.
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {

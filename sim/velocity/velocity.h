@@ -58,8 +58,8 @@ class VelocityField {
 [[nodiscard]] std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
                                                                const waterline::PullIndex& pulls);
 
-/// Solves for the Stokes flow (section 4.2, eq. 2). Each component is harmonic; both use the same
-/// factorisation, on quadratic elements.
+/// Solves for the Stokes flow (section 4.2, eq. 2). Each velocity component is harmonic. The two
+/// components share one factorisation, on quadratic elements.
 /// @param fixed  for each node, the prescribed velocity, or NaN where it is unknown
 /// @return the velocity of each node; kInternal if the matrix cannot be factored
 [[nodiscard]] Result<std::vector<Eigen::Vector2d>> solve_stokes(
