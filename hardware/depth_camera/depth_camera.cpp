@@ -98,7 +98,7 @@ class OpenNiCamera : public DepthCamera {
   openni::Recorder recorder_;
   std::unique_ptr<DisconnectListener> disconnect_listener_;
   SourceInfo info_;
-  int frames_read_ = 0;  // frames of a recording
+  int frames_read_ = 0;  // number of frames read so far
 };
 
 Status OpenNiCamera::open(const std::string& uri) {

@@ -39,8 +39,8 @@ struct DriveState {
 struct Inspection {
   std::string drive;      ///< name in the profile
   double watchdog_s = 0;  ///< as read back from the drive; 0: off, or no watchdog
-  /// Why this drive must not be armed in its current configuration (kFailedPrecondition, reason
-  /// DRIVE_CONFIG_UNSAFE); nullopt if it may be armed.
+  /// Reason why this drive must not be armed in its current configuration (kFailedPrecondition,
+  /// reason DRIVE_CONFIG_UNSAFE); nullopt if it may be armed.
   std::optional<Error> unsafe;
 };
 

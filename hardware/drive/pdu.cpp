@@ -33,7 +33,7 @@ std::string_view exception_text(int exception) {
       "no such register",
       "value not allowed",
       "not possible in the present state",
-      "accepted, but not done yet",
+      "accepted, but not finished yet",
       "busy",
   };
   const auto at = static_cast<std::size_t>(exception);

@@ -65,8 +65,8 @@ class Link::Line {
   int stops_waiting_ = 0;
   bool open_ = false;
   std::uint64_t connections_ = 0;
-  Clock::time_point silent_until_;          // applies to everything except a stop
-  Clock::time_point quiet_until_;           // the gap after a frame, applies to everything
+  Clock::time_point silent_until_;  // end of the silence after a failure; a stop does not wait
+  Clock::time_point quiet_until_;   // end of the gap after a frame; every request waits
   std::unique_ptr<Connection> connection_;  // used only by the holder of the turn
 };
 

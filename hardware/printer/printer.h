@@ -46,7 +46,7 @@ struct PrintJob {
   std::span<const unsigned char> document;
   std::string format = "application/pdf";
   std::string name = "Hydroprint";
-  Eigen::Vector2d paper_mm = {210, 297};  ///< as loaded in the tray
+  Eigen::Vector2d paper_mm = {210, 297};  ///< size of the paper in the tray
 };
 
 /// States of a job; see RFC 8011, section 5.3.7.

@@ -20,7 +20,7 @@ using Kind = Event::Kind;
 constexpr double kPendingPatience_s = 2;
 constexpr double kStopAgain_s = 0.2;
 constexpr int kStandstillPolls = 2;
-// Added to the watchdog's time, until the watchdog must have acted.
+// Time after the watchdog's own time, by which the watchdog must have acted.
 constexpr double kWatchdogMargin_s = 0.05;
 // Added to the computed braking time. An axis that still moves after this does not obey the stop.
 constexpr double kStopMargin_s = 0.5;

@@ -12,7 +12,8 @@ namespace {
 // Number of poll periods for which a jog must still have space.
 constexpr double kJogLooks = 3;
 
-/// The longest accepted watchdog time; a drive without a watchdog is never armed.
+/// Returns the longest accepted watchdog time; 0 for a drive without a watchdog, which is never
+/// armed.
 double watchdog_s(const drive::DriveProfile& profile) {
   return profile.watchdog ? profile.watchdog->largest_time_s : 0;
 }

@@ -13,7 +13,8 @@ using Kind = Event::Kind;
 
 // Time within which a drive must show that homing has started.
 constexpr double kHomingShows_s = 0.5;
-// Tolerance of a move's duration, for sending the command and for the last step.
+// Time by which a move may exceed its computed duration, for sending the command and for the last
+// step.
 constexpr double kLate_s = 1;
 
 double seconds(TimePoint from, TimePoint to) {

@@ -46,7 +46,7 @@ struct Jitter {
 struct Snapshot {
   Condition condition;
   TimePoint time;         ///< time of the last valid poll
-  bool has_axis = false;  ///< the next four fields are valid (polled since any lost link)
+  bool has_axis = false;  ///< the next four fields are valid; false while the link is lost
   Bits bits;
   double position_mm = 0;
   double velocity_mm_per_s = 0;

@@ -46,8 +46,8 @@ class SampleRing {
   std::atomic<std::uint64_t> newest_{0};
 };
 
-/// How constant a speed was. Deviations that the time errors of the samples can explain are not
-/// counted, so the values are lower bounds.
+/// Measures of how constant a speed was. Deviations that the time errors of the samples can explain
+/// are not counted, so the values are lower bounds.
 struct ConstantSpeed {
   int samples = 0;
   double speed_mm_per_s = 0;  ///< slope of the line through the positions (least squares)

@@ -59,7 +59,7 @@ void StopChannel::run() {
     std::uint64_t wakeups = 0;
     if (::read(wake_event_, &wakeups, sizeof wakeups) < 0) wakeups = 0;
     if (owner_is_late()) {
-      in_motion_ = false;  // only once
+      in_motion_ = false;  // stops only once
       tripped_ = true;
       stop_ = true;
     }

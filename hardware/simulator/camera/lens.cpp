@@ -6,10 +6,10 @@
 namespace hydroprint::simulated_camera {
 namespace {
 
-/// Half widths of the ranges that lenses are drawn from. Khoshelham and Elberink (Sensors 12, 2012,
-/// table 1): focal length 5.453 mm = 586 px, 1.8 % above the manufacturer's value, principal point
-/// off by 7 and 4 px. Smisek, Jancosek and Pajdla (3D with Kinect, 2011): 585.6 px, k1 = -0.13, k2
-/// = 0.45, p1 and p2 of 0.001, depths off by 0.1 to 1 %.
+/// Middles and half widths of the ranges from which lenses are drawn. Khoshelham and Elberink
+/// (Sensors 12, 2012, table 1): focal length 5.453 mm = 586 px, 1.8 % above the manufacturer's
+/// value, principal point off by 7 and 4 px. Smisek, Jancosek and Pajdla (3D with Kinect, 2011):
+/// 585.6 px, k1 = -0.13, k2 = 0.45, p1 and p2 of 0.001, depths off by 0.1 to 1 %.
 constexpr double kFocalSpread = 0.02;
 constexpr double kCentreSpread_px = 8;
 constexpr double kK1 = -0.10, kK1Spread = 0.05;
@@ -18,7 +18,7 @@ constexpr double kTangentialSpread = 0.002;
 constexpr double kDepthSpread = 0.01;
 
 double between(std::mt19937_64& random, double middle, double spread) {
-  // std::uniform_real_distribution differs between standard libraries.
+  // The results of std::uniform_real_distribution would differ between standard libraries.
   return middle + spread * (static_cast<double>(random() >> 11U) * 0x1p-52 - 1);
 }
 

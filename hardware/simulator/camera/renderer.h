@@ -27,8 +27,9 @@ class Renderer {
   /// @param lit  a depth is also 0 where the projector's light does not arrive
   [[nodiscard]] Depths look(const simulated_scene::Sight& sight, const Pose& X_FC, bool lit = true);
 
-  /// Renders a frame of the scenery's own camera at its pose for that time, with all of its errors
-  /// (or none, if it has none). Ignores whether the camera is frozen, black or gone in the sight.
+  /// Renders a frame of the scenery's own camera, at the camera's pose at sight.time_s, with lens
+  /// and sensor errors unless Scenery::has_errors is false. Ignores sight.camera (frozen, black or
+  /// gone).
   [[nodiscard]] Frame photograph(const simulated_scene::Sight& sight);
 
  private:

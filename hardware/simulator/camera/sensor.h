@@ -26,8 +26,8 @@ struct Errors {
 /// for improved 3D reconstruction and tracking, 3DIMPVT 2012, for surfaces that face the camera).
 [[nodiscard]] double noise_sigma_mm(double depth_mm);
 
-/// Half of the noise's variance is constant in time and equal within square patches with this side,
-/// so averaging does not remove it.
+/// Half of the noise's variance (kConstantShare) is constant in time and equal within square
+/// patches of side kPatch_px, so averaging over frames does not remove it.
 inline constexpr int kPatch_px = 4;
 inline constexpr double kConstantShare = 0.5;
 

@@ -97,7 +97,7 @@ void look_at_clocks(const Machine& machine, Model& model) {
 }
 
 void set_zero(Model& model, double before_mm) {
-  // The switch's edge lies between the last two samples.
+  // If the switch's edge, at 0, lies between the last two samples, it is used exactly.
   model.zero_mm = before_mm <= 0 && model.actual.x_mm > 0 ? 0 : model.actual.x_mm;
   model.homed = true;
 }

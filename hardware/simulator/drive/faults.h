@@ -20,7 +20,7 @@ enum class ReplyFaultKind {
   kWrongId,        ///< reply of another unit
   kWrongFunction,  ///< reply of another function
   kWrongCrc,       ///< RTU: checksum; TCP: transaction id
-  kWrongLength,    ///< correctly framed, but a word short; for a write: confirms another value
+  kWrongLength,    ///< correctly framed, but one word short; for a write: confirms another value
   kBusy,           ///< exception 6; the request has no effect
   kDropRequest,    ///< the drive does not receive the request
 };

@@ -13,7 +13,7 @@
 
 namespace hydroprint::openni_driver {
 
-/// Frames of the rig's camera, rendered on time by a separate thread.
+/// Frames of the rig's camera, rendered at the frame rate by a separate thread.
 class DepthStream : public oni::driver::StreamBase {
  public:
   /// @param on_gone  called from the stream's thread when the camera disappears; the thread then

@@ -8,7 +8,7 @@ namespace hydroprint::simulated_scene {
 namespace {
 
 constexpr double kBarBottom_mm = -4;
-constexpr double kGap_mm = 25;  ///< between bars and wall of the vat
+constexpr double kGap_mm = 25;  ///< between the bars and the vat's walls
 constexpr double kWall_mm = 8;  ///< thickness of the vat's walls
 constexpr double kRim_mm = 20;  ///< height of the vat's rim above the water
 constexpr double kTable_mm = -180;
