@@ -33,16 +33,16 @@ struct InkGrid {
 [[nodiscard]] InkGrid ink_grid(const film::Outline& outline, double cell_mm = kInkCell_mm);
 
 /// The amount of ink t = C + M + Y + K on a printed film (section 4.3), in [0, 4], at printed
-/// points in F. It is defined by means over the cells of a grid: bilinear between the cells'
-/// centres, constant from the outermost centres to the edge of the grid, and 0 beyond. Its integral
-/// over the film therefore equals the sum of the means times the area of a cell.
+/// points in the film frame F. It is defined by means over the cells of a grid: bilinear between
+/// the cells' centres, constant from the outermost centres to the edge of the grid, and 0 beyond.
+/// Its integral over the film therefore equals the sum of the means times the area of a cell.
 class InkField {
  public:
   /// Creates a field without ink.
   InkField() = default;
 
   /// Errors: kInvalidArgument for a wrong number of means or values outside [0, 4].
-  /// @param means  of t over each cell, cell (i, j) at [j columns + i]
+  /// @param means  means of t over each cell; that of cell (i, j) is at [j columns + i]
   [[nodiscard]] static Result<InkField> from_means(const InkGrid& grid,
                                                    const std::vector<double>& means);
 
