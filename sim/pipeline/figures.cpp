@@ -14,7 +14,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-constexpr double kStokesStretch = 1.3;  ///< section 4.4: 0.3 beyond the rest length
+constexpr double kStokesStretch = 1.3;  ///< limit in section 4.4: 0.3 beyond the rest length
 
 /// A sheet that still moves by more than this in the last sweep causes a warning: about a pixel at
 /// 300 dpi.

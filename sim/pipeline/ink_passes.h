@@ -15,7 +15,7 @@ namespace hydroprint::pipeline {
 /// result of each pass.
 /// @param first        the first pass of this model with these options
 /// @param most_passes  at least 1
-/// @param dpi          of the film image
+/// @param dpi          resolution of the film image
 [[nodiscard]] Result<Dip> dip_inked(const mesh::Model& model, StokesPass first,
                                     const image::Paint& paint, int most_passes, double dpi,
                                     const DipOptions& options, const Context& context);

@@ -26,8 +26,8 @@ enum class FilmModel { kStokes, kSheet };
 
 /// Options of one dip: the object's pose and motion, and the film.
 struct DipOptions {
-  /// Object frame to film frame at the start of the dip; z is ignored. nullopt: orientation as in
-  /// the file, bounding box centred on the film.
+  /// Pose of the object at the start of the dip (object frame to film frame); z is ignored.
+  /// nullopt: orientation as in the file, bounding box centred on the film.
   std::optional<Pose> X_FO;
   film::Outline outline;
   film::Profile profile;
