@@ -70,8 +70,8 @@ Sample make_board() {
     return Eigen::Vector3d(((i & 1) != 0 ? 0.5 : -0.5) * kSideMm,
                            ((i & 2) != 0 ? 0.5 : -0.5) * kSideMm, (i & 4) != 0 ? kThickMm : 0);
   };
-  // Top, bottom (which is dipped first), then the four side faces. Each has its lower left corner
-  // as seen from outside, then the corners to the right of it and above it.
+  // Top, bottom (which is dipped first), then the four side faces. Each entry lists the lower left
+  // corner as seen from outside, then the corners to the right of it and above it.
   const std::array<std::array<int, 3>, 6> sides = {
       {{4, 5, 6}, {1, 0, 3}, {0, 1, 4}, {1, 3, 5}, {3, 2, 7}, {2, 0, 6}}};
   for (std::size_t q = 0; q < sides.size(); ++q) {

@@ -49,7 +49,7 @@ std::vector<Outline> make_parts() {
 
 // The handle joins the wall at two holes, each of 8 x 10 of the wall's cells.
 constexpr int kHoleHalf = 4;   // cells to either side of the handle's plane
-constexpr int kHoleRows = 10;  // cells
+constexpr int kHoleRows = 10;  // height of a hole, in cells
 constexpr int kLowRow = 10;    // first row of the wall in the lower hole
 constexpr int kHighRow = 42;   // first row of the wall in the upper hole
 constexpr int kSpokes = 2 * (2 * kHoleHalf + kHoleRows);

@@ -59,8 +59,8 @@ Place place_at(double x_deg, double y_deg) {
        std::cos(latitude * kDegree) * std::sin(longitude * kDegree), std::sin(latitude * kDegree)}};
 }
 
-/// Coverage, in [0, 1], of a place by the meridians and parallels every `spacing_deg`, with lines
-/// `width_deg` wide.
+/// Returns the coverage, in [0, 1], of a place by the meridians and parallels every `spacing_deg`,
+/// with lines `width_deg` wide.
 double on_graticule(const Place& p, double spacing_deg, double width_deg) {
   const double shrink = std::cos(p.latitude_deg * kDegree);
   const double distance = std::min(to_nearest_line(p.longitude_deg, spacing_deg) * shrink,
