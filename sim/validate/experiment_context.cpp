@@ -54,7 +54,8 @@ pipeline::DipOptions ExperimentContext::options(const Body& body, Fineness finen
   pipeline::DipOptions o;
   o.X_FO = body.X_FO;
   o.outline = film::parse_outline("A4").value();
-  // A level edge first meets the water as a narrow slit. The narrower the slit, the finer the mesh.
+  // A level edge first meets the water as a narrow slit. The narrower the slit, the finer the mesh,
+  // so this gap is wider than the default.
   o.schedule.event_gap_mm = 0.05;
   // Fine enough for pictures and for positions to a few hundredths of a millimetre.
   o.map.tolerance_mm = quick_ ? 0.1 : 0.04;

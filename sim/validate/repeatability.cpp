@@ -22,7 +22,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Assumed standard deviations, for each axis.
+// Assumed standard deviations of the errors of gripper and film, for each axis.
 constexpr double kGripper_mm = 0.3, kGripper_deg = 0.3;
 constexpr double kFilm_mm = 0.5, kFilm_deg = 0.2;
 constexpr unsigned kSeed = 1;
@@ -125,7 +125,7 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
 
   const std::vector<Vector2d> points = grid();
   std::vector<std::vector<Vector3d>> landed(points.size());
-  // Where the film's middle lands, which does not depend on the flow.
+  // Landing points of the film's middle, which do not depend on the flow.
   std::vector<Vector3d> contacts;
   Dice dice;
   for (int draw = 0; draw < draws; ++draw) {
@@ -175,8 +175,8 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
                          Limit{0, 2,
                                "the paper's largest error to the equator, which also includes "
                                "these errors"}});
-  out.figures.push_back({"spread_at_contact_mm", "spread where the object first touches", "mm",
-                         spread[middle], std::nullopt});
+  out.figures.push_back({"spread_at_contact_mm", "spread where the object first touches the film",
+                         "mm", spread[middle], std::nullopt});
   out.figures.push_back(
       {"spread_at_contact_ratio", "the same, relative to the spread of the random errors", "",
        spread[middle] / scatter(contacts),
