@@ -31,8 +31,8 @@ using Point = Kernel::Point_2;
 
 constexpr double kSquaredSine = 0.25;  ///< squared sine of the smallest angle, 30 degrees
 
-/// Triangles with shorter edges are not refined for their angles. Otherwise, gaps between
-/// waterlines that nearly touch would be filled with ever smaller triangles.
+/// Triangles whose edges are all shorter than this are not refined for their angles. Otherwise,
+/// gaps between waterlines that nearly touch would be filled with ever smaller triangles.
 constexpr double kTiny_mm = 0.1;
 
 /// A triangle is bad if an angle is below 30 degrees or its longest edge exceeds the sizing field.

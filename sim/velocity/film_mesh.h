@@ -11,7 +11,7 @@
 
 namespace hydroprint::velocity {
 
-/// What lies on the other side of an edge of the film mesh.
+/// The kinds of edges of the film mesh, by the region on their other side.
 enum class EdgeKind : unsigned char {
   kInner,      ///< more film
   kVat,        ///< the film's clamped edge, Gamma_v
