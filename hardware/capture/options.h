@@ -26,7 +26,7 @@ struct Options {
 /// Maximum duration of a capture, s: all frames are kept in memory until its end.
 inline constexpr double kMostSeconds = 60;
 
-/// The options, or a text to print and an exit status.
+/// The parsed options; if the program must not run, a text to print and an exit status.
 struct CommandLine {
   Options options;
   bool runs = false;

@@ -17,7 +17,7 @@ namespace {
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 480;
 constexpr int kRate_hz = 30;
-/// Timeout for a frame of a recording, which only has to be read.
+/// Timeout for reading a frame of a recording.
 constexpr std::chrono::seconds kReadTime{20};
 
 /// Returns OpenNI2's extended error text, on one line.

@@ -29,8 +29,8 @@ struct DriveState {
   int alarm_code = 0;       ///< 0: none
   std::string alarm_text;   ///< empty: none
   std::string alarm_hint;   ///< remedy
-  /// Midpoint between sending the request for the position and receiving its reply, and the
-  /// uncertainty of that time.
+  /// Time of the position: the midpoint between sending the request and receiving its reply, and
+  /// the uncertainty of that time.
   std::chrono::steady_clock::time_point time;
   std::chrono::duration<double> time_error{0};
 };

@@ -120,7 +120,7 @@ struct Watchdog {
 struct DriveProfile {
   std::string name;
   bool tried_on_hardware = false;
-  bool is_virtual = false;             ///< hydroprint-virtual-rig: no person can be hurt
+  bool is_virtual = false;             ///< simulated by hydroprint-virtual-rig: nobody can be hurt
   int unit = 1;                        ///< Modbus unit (slave) id, 1 to 247
   bool single_writes_by_fc16 = false;  ///< single words are written with function 16, not 6
 

@@ -20,7 +20,7 @@ struct Timing {
   std::chrono::milliseconds poll{1000};      ///< interval between polls of a job
   /// If a printer does not respond for this long during a job, it counts as lost.
   std::chrono::milliseconds patience{20000};
-  std::chrono::milliseconds job{3600000};  ///< timeout from sending a job to its end
+  std::chrono::milliseconds job{3600000};  ///< timeout of follow(), until the job ends
 };
 
 /// A paper size supported by the printer.

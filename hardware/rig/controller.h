@@ -37,7 +37,7 @@ class Controller {
   std::future<Answer> reset();
   std::future<Answer> home();
   std::future<Answer> move_to(double position_mm, double speed_mm_per_s);
-  /// Moves at a speed of either sign as long as this is called again at least every kPresence_s.
+  /// Moves at a speed of either sign as long as jog() is called again at least every kPresence_s.
   /// The axis stops within 500 ms of the last call, or before the soft limit.
   std::future<Answer> jog(double speed_mm_per_s);
   /// Performs each leg and its hold. The dip continues if the client disconnects.

@@ -53,7 +53,8 @@ struct ConstantSpeed {
   double speed_mm_per_s = 0;  ///< slope of the line through the positions (least squares)
   double largest_way_mm = 0;  ///< largest distance of a position from that line
   double largest_share = 0;   ///< largest |v / v_line - 1|, with v averaged over `window_s`
-  /// Distance travelled in the largest time error; smaller deviations cannot be detected.
+  /// Distance travelled during the largest time error of a sample; smaller deviations cannot be
+  /// detected.
   double way_uncertainty_mm = 0;
   double window_s = 0;
 };

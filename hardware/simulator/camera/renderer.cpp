@@ -239,7 +239,7 @@ Depths Renderer::look(const simulated_scene::Sight& sight, const Pose& X_FC, boo
       aim(packet, &rays_->directions[first], camera);
       rtcIntersect8(packet.valid, all, &context, &packet.rays);
       for (int i = 0; i < kPacket; ++i) packet.valid[i] = faces(packet, i, turn) ? -1 : 0;
-      // Directions have z = 1 in the camera's frame, so the length along one is the depth.
+      // Directions have z = 1 in the camera's frame, so the ray parameter at a hit is the depth.
       RTCRay8 back = towards(packet, light);
       if (lit) rtcOccluded8(packet.valid, all, &context, &back);
       for (int i = 0; i < kPacket; ++i) {
