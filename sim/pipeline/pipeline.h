@@ -51,7 +51,8 @@ struct DipOptions {
 /// refines the computation.
 [[nodiscard]] DipOptions scaled_resolution(DipOptions options, double factor);
 
-/// The change of the landing points from the previous ink pass to this one.
+/// Distances on the film by which the points that land on the surface have moved since the previous
+/// ink pass.
 struct InkPass {
   double moved_rms_mm = 0;
   double moved_most_mm = 0;  ///< the 99.9th percentile over the surface's points
