@@ -77,14 +77,14 @@ void warn_about_size(const Model& model, Surface& surface) {
   warn(surface, model, "small_or_large_object",
        fmt::format("the largest side is {} mm: if the file is in {}", three_digits(largest_mm),
                    largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
-                                         : "micrometres or thousandths, give --scale 0.001"));
+                                         : "micrometres, give --scale 0.001"));
 }
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
   if (found.inconsistent > 0 || found.one_sided > 0)
     warn(surface, model, "inconsistent_orientation",
          fmt::format("{} faces were turned over to agree with their neighbours, {} edges disagree "
-                     "either way",
+                     "in any orientation",
                      found.inconsistent, found.one_sided));
   if (found.inside_out > 0)
     warn(surface, model, "inside_out",

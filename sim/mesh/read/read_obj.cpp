@@ -273,7 +273,7 @@ class ObjImporter {
   std::vector<Transform> transforms_;  ///< texture transform of each material
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<int> corners_;
-  std::vector<int> corner_uvs_;  ///< -1: none
+  std::vector<int> corner_uvs_;  ///< index into uvs_ for each corner; -1: none
   std::vector<std::size_t> face_end_;
   std::vector<int> face_material_;
   int current_ = -1;
