@@ -19,7 +19,7 @@ struct EmbeddedFont {
   text::FontMetrics metrics;          ///< the name with the tag of a subset: "ABCDEF+DejaVuSans"
   std::vector<double> widths;         ///< by CID, in thousandths of the em
   std::string file;                   ///< TrueType, glyphs of these characters only
-  std::string cid_to_gid;             ///< its glyphs by CID, two bytes each
+  std::string cid_to_gid;             ///< glyph numbers in `file` by CID, two bytes each
   std::string to_unicode;             ///< a CMap: characters by CID
 
   /// Encodes a line of text as a hexadecimal string of CIDs.
