@@ -37,7 +37,8 @@ std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   return {sum_a / static_cast<double>(count), sum_b / static_cast<double>(count)};
 }
 
-/// Minimises |r + J d|^2 + damping over the free parameters; the others change by `d`.
+/// Minimises |r + J d|^2 + damping over the free parameters; the other parameters
+/// change as given in `d`.
 void solve_free(const Linearised& known, double damping, const std::vector<Index>& free,
                 VectorXd& d) {
   HP_CHECK(damping >= 0);

@@ -42,7 +42,7 @@ MatrixXd inverse_normal(const Directions& d) {
   return d.known * d.inverse_square.asDiagonal() * d.known.transpose();
 }
 
-/// Returns the root mean square displacement of the points for a step of 1.
+/// Returns the rms displacement of the points for a step of 1 in parameter j.
 double moves_mm(const MatrixXd& jacobian, Index j) {
   const double points = 0.5 * static_cast<double>(std::max<Index>(jacobian.rows(), 1));
   return std::sqrt(jacobian.col(j).squaredNorm() / points);
