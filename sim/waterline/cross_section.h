@@ -12,7 +12,7 @@ namespace hydroprint::waterline {
 struct Loop {
   std::vector<Eigen::Vector2d> points_mm;
   bool is_hole = false;
-  int parent = -1;  ///< the innermost loop around it; -1: none
+  int parent = -1;  ///< index of the innermost loop around this loop; -1: none
 };
 
 /// The union of all solid parts at one immersion, as simple closed curves that do not cross. The

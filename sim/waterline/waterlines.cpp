@@ -39,7 +39,8 @@ Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) 
   return {immersion_mm, unite(contours), {}, PullIndex(contours)};
 }
 
-/// Numbers of outer loops and of holes above a minimum size. They change when the topology changes.
+/// Returns the numbers of outer loops and of holes above a minimum size. They change when the
+/// topology changes.
 std::array<int, 2> signature(const Waterline& line) {
   std::array<int, 2> count = {0, 0};
   for (const Loop& loop : line.section) {
