@@ -80,7 +80,7 @@ Sheet::State::State(const FilmMesh& film, double drag, std::vector<Eigen::Vector
   find_places();
 }
 
-/// Row of each of a triangle's twelve velocity components; -1: prescribed.
+/// Returns the matrix row of each of a triangle's twelve velocity components; -1: prescribed.
 std::array<int, 12> Sheet::State::rows_of(std::size_t triangle) const {
   std::array<int, 12> rows;
   const auto node = nodes_of(mesh, triangle);
@@ -173,8 +173,8 @@ bool Sheet::State::iterate() {
     residual -= step * image;
     const Eigen::VectorXd towards = factor.solve(residual);
     const double next = residual.dot(towards);
-    // Extrapolated from the convergence so far. The first few iterations show if a factor is too
-    // old.
+    // Number of iterations, extrapolated from the convergence so far. The first few iterations show
+    // if a factor is too old.
     const double expected = i * std::log(wanted / first) / std::log(next / first);
     const bool is_slow = i >= kFewIterations && !(next < first && expected < kMostIterations);
     if (!(next <= wanted) && (is_slow || i >= kMostIterations)) return false;
