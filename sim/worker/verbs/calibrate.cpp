@@ -44,7 +44,7 @@ struct CalibrateOptions {
   std::filesystem::path frames;
   std::filesystem::path layout;
   std::filesystem::path camera;      ///< empty: the driver's lens
-  std::optional<double> gripper_mm;  ///< height of its lower end over z = 0; nullopt: not in view
+  std::optional<double> gripper_mm;  ///< height of its lower end above z = 0; nullopt: not in view
 };
 
 void add_flags(Flags& flags) {
