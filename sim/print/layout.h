@@ -22,7 +22,7 @@ struct Pixels {
 };
 
 /// One sheet of paper with its part of the film image. Coordinates are in the page's frame
-/// (Stroke).
+/// (see Stroke).
 struct Sheet {
   /// Size of the paper, in the orientation in which the printer feeds it.
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();

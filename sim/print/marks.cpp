@@ -19,9 +19,9 @@ using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< distance of marks from the film
-constexpr double kOff_mm = 2;        ///< distance of a registration mark from the film's edge
-constexpr double kMark_mm = 5;       ///< length of a registration, corner or join mark
-constexpr double kBleed_mm = 0.5;    ///< free space around the arrow
+constexpr double kOff_mm = 2;      ///< distance of registration, corner and join marks from an edge
+constexpr double kMark_mm = 5;     ///< length of a registration, corner or join mark
+constexpr double kBleed_mm = 0.5;  ///< free space around the arrow
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
   return {{from_mm, to_mm}, kPen_mm, 1};

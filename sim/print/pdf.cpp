@@ -4,7 +4,8 @@
 // in one thread, so images are compressed in advance as in a PNG, which PDF accepts unchanged.
 #include "sim/print/pdf.h"
 
-#define POINTERHOLDER_TRANSITION 4  // required by QPDF's headers; 4: without its old pointers
+// Required by the headers of QPDF; 4: its deprecated pointer type is not used.
+#define POINTERHOLDER_TRANSITION 4
 
 #include <fmt/format.h>
 

@@ -210,7 +210,7 @@ Status check_contact(const waterline::CrossSection& contact, const film::Outline
   if (!solid.empty() && waterline::common_area({outline.polygon}, solid) > 0) return {};
   return fail(Code::kFailedPrecondition,
               "pose: the object's first contact misses the film " + outline.name +
-                  "; move the object over the film (translation_mm) or take a larger --film",
+                  ". Move the object over the film (translation_mm), or use a larger --film",
               "CONTACT_MISSES_FILM");
 }
 
