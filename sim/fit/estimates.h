@@ -25,7 +25,7 @@ struct Estimate {
   bool is_one_sided = false;        ///< the estimate and one end of the interval lie at a bound
   double scaled = 0;                ///< the fitted value, scaled (see parameters.h)
   double scaled_error = 0;          ///< its standard error
-  double discretisation_error = 0;  ///< the part due to discretisation, scaled
+  double discretisation_error = 0;  ///< the part of scaled_error due to discretisation
 };
 
 /// A parameter that was not fitted and keeps its value.

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 12;
 constexpr int kMostTrials = 5;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kSettledShare = 0.05;  ///< last step, as a fraction of the uncertainty
+constexpr double kSettledShare = 0.05;  ///< largest last step, as a fraction of the uncertainty
 constexpr double kMostStep = 1;
 
 /// Returns the mean squares of `a` and `b` over the rows in which neither is NaN.

@@ -21,7 +21,7 @@ struct Linearised {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
 
-  /// Returns the rows that are not NaN.
+  /// Returns the rows that do not contain NaN.
   [[nodiscard]] Linearised of_known() const;
 };
 

@@ -56,7 +56,7 @@ double half_width(const MatrixXd& covariance, Index j, double t) {
   return t * std::sqrt(std::max(covariance(j, j), 0.0));
 }
 
-/// Returns the parameter whose estimate is most correlated with another one.
+/// Returns the parameter whose estimate is most correlated with that of `parameter`.
 Index partner(const MatrixXd& covariance, Index parameter) {
   Index best = -1;
   double most = 0;

@@ -38,7 +38,7 @@ struct Unknown {
 
 /// Returns the parameters to hold next, because their interval is wider than the plausible range.
 /// These are the parameters that would be undetermined even if all others were known. If there are
-/// none, it is the least certain of the parameters that are undetermined only together.
+/// no such parameters, only the least certain of those that are undetermined together is returned.
 /// @param t  quantile that converts a standard error to an interval
 [[nodiscard]] std::vector<Unknown> unknowns(const Linearised& known, double floor_mm, double t);
 
