@@ -7,7 +7,7 @@
 namespace hydroprint::waterline {
 namespace {
 
-// An end is encoded as 2 * segment + (0 for its start, 1 for its end).
+// A segment's start is encoded as 2 * segment, its end as 2 * segment + 1.
 constexpr int kNone = -1;
 int segment_of(int end) { return end / 2; }
 int opposite(int end) { return end ^ 1; }

@@ -27,7 +27,7 @@ using CrossSection = std::vector<Loop>;
 /// Returns the area of a closed curve, positive if counter-clockwise, mm2.
 [[nodiscard]] double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
-/// Tests a point against several closed curves with the even-odd rule.
+/// Returns true if the point lies inside the solid, by the even-odd rule.
 [[nodiscard]] bool is_inside(const CrossSection& section, const Eigen::Vector2d& point_mm);
 
 /// Returns the area of the intersection of two regions, each given by simple curves under the

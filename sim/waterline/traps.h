@@ -11,7 +11,7 @@ struct Waterline;
 /// Film enclosed by a waterline, for example under a ring or an upside-down cup. It is cut off from
 /// the rest of the film and can only stretch.
 struct Trap {
-  double immersion_mm = 0;  ///< immersion at which the trap encloses film
+  double immersion_mm = 0;  ///< immersion at which the waterline closes around the film
   Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();  ///< centre of the hole in the cross-section
   double area_mm2 = 0;                                 ///< largest area of the hole
   /// Immersion at which the solid closes above the trap, so that air cannot escape; nullopt: the
