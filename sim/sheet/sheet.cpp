@@ -16,8 +16,8 @@ using Matrix = Eigen::SparseMatrix<double>;
 // The numbering of the unknowns already has low fill (FilmMesh::elimination_order).
 using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle. Quadrature at the midpoints of
-/// the edges is exact for quadratic functions.
+/// Returns the integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle. Quadrature at the
+/// midpoints of the edges is exact for quadratic functions.
 ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
   const double twice_area = twice_area_mm2(mesh, t);
   ElementMatrix K = ElementMatrix::Zero();

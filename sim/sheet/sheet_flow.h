@@ -24,7 +24,7 @@ struct SheetFlow {
 
 /// Computes the dip of a viscous sheet (section 4.3, quasistatic), in which velocity and thickness
 /// depend on each other. Solves a few waterlines at a time by waveform relaxation: each sweep
-/// computes the thickness at all of them from the previous velocities, then solves for new
+/// computes the thickness at all these waterlines from the previous velocities, then solves for new
 /// velocities in parallel. The sweeps converge to the solution of the coupled problem. Each sweep
 /// reduces the error of the initial guess six- to tenfold.
 /// @param first  any velocities on the dip's film meshes, with the right values at the edges;
