@@ -205,7 +205,9 @@ Result<std::vector<Eigen::Vector2d>> Sheet::solve(const std::vector<double>& thi
   if (s.unknowns.count == 0) return s.fixed;
   s.assemble(thickness_mm);
   if ((s.has_factor && s.iterate()) || s.factorize()) return s.velocities();
-  return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix for the sheet");
+  return fail(Code::kInternal,
+              "velocity: the film mesh gives a singular matrix for the sheet. "
+              "Please report this");
 }
 
 }  // namespace hydroprint::velocity

@@ -100,7 +100,7 @@ void VerbParser::add_run_flags() {
   RunOptions& options = run_.options;
   if (verb_.leaves_folder) {
     add_path(app_, "--out", options.out,
-             "Artifact folder to create; replaces that of an earlier run", "DIR");
+             "Artifact folder to create; replaces the folder of an earlier run", "DIR");
     app_.get_option("--out")->required();
     app_.add_flag("--json", options.json, "Print the summary or error as one JSON object");
     app_.add_option("--progress-fd", options.progress_fd,
@@ -133,7 +133,7 @@ std::string VerbParser::usage_problem() const {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it first";
   }
-  if (!run_.spec && run_.inputs) return "--inputs: needs --spec. Leave it out";
+  if (!run_.spec && run_.inputs) return "--inputs: needs --spec. Add --spec, or leave --inputs out";
   if (!run_.spec) return {};
   if (*run_.spec == "-" && !verb_.leaves_folder) {
     return "--spec: stdin is reserved for requests. Name a file";
