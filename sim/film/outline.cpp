@@ -82,7 +82,8 @@ Outline rectangle(const std::string& name, const Vector2d& size_mm) {
 }
 
 Outline circle(const std::string& name, double radius_mm) {
-  // Uses a multiple of four corners, the first on the x axis, to keep both mirror symmetries.
+  // Uses a multiple of four corners, the first on the x axis, so that the polygon is symmetric
+  // about both axes.
   int corners = 4 * static_cast<int>(std::ceil(std::numbers::pi * radius_mm / (2 * kMaxChord_mm)));
   const auto corner_radius_mm = [&] {
     const double sector_rad = 2 * std::numbers::pi / corners;
@@ -130,7 +131,7 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing(const std::vector<Ve
     const Vector2d& next = polygon[(i + 2) % n];
     if (on_segment(next, a, b) || on_segment(a, b, next)) return {{i, (i + 1) % n}};
     for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // neighbours across the end of the list
+      if (i == 0 && j == n - 1) continue;  // the last edge and the first are neighbours
       const Vector2d& c = polygon[j];
       const Vector2d& d = polygon[(j + 1) % n];
       if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) - kOnEdge_mm ||

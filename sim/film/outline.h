@@ -11,8 +11,8 @@
 namespace hydroprint::film {
 
 /// The film's edge, clamped to the vat (Gamma_v of section 4.1): a simple polygon in F, mm,
-/// counter-clockwise. Its image covers its bounding box, which is centred on the origin unless the
-/// outline was given as a polygon.
+/// counter-clockwise. The film image covers the bounding box of the outline, which is centred on
+/// the origin unless the outline was given as a polygon.
 struct Outline {
   std::vector<Eigen::Vector2d> polygon;
   Eigen::Vector2d min_mm = Eigen::Vector2d::Zero();

@@ -37,13 +37,13 @@ Interval interval_of(double value, double unbounded, double error, double low, d
   return {std::max(low, value - half), std::min(high, value + half), false};
 }
 
-/// Returns the standard error in the profile's terms, to first order.
+/// Returns the standard error in the units of the profile, to first order.
 double natural_error(Parameter parameter, double scaled, double error,
                      const film::Profile& profile) {
   if (parameter != Parameter::kDrag) {
     return natural_value(parameter, error, profile) - natural_value(parameter, 0, profile);
   }
-  // The length is scaled^(-1/2), up to a factor.
+  // The length is proportional to scaled^(-1/2).
   const double length_mm = natural_value(parameter, scaled, profile);
   if (!std::isfinite(length_mm)) return std::numeric_limits<double>::quiet_NaN();
   return 0.5 * length_mm * error / scaled;
@@ -93,8 +93,9 @@ Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
         what.plausible, three_digits(unknown.moves_mm), three_digits(residual_mm));
   } else {
     reason = fmt::format(
-        "these points cannot distinguish it from {}: both move them in the same way, and its "
-        "interval would exceed the plausible range ({}). Measure points spread farther over the "
+        "these points cannot distinguish it from {}: both move the points in the same way, "
+        "and its interval would exceed the plausible range ({}). Measure points spread farther "
+        "over the "
         "film, or hold the other parameter",
         describe(free[unknown.taken_for], start).name, what.plausible);
   }

@@ -23,9 +23,9 @@ struct Estimate {
   double standard_error = 0;        ///< NaN for a drag length at its bound
   double low = 0, high = 0;         ///< ends of the confidence interval
   bool is_one_sided = false;        ///< the estimate and one end of the interval lie at a bound
-  double scaled = 0;                ///< the fitted value, see parameters.h
+  double scaled = 0;                ///< the fitted value, scaled (see parameters.h)
   double scaled_error = 0;          ///< its standard error
-  double discretisation_error = 0;  ///< the part due to discretisation, scaled
+  double discretisation_error = 0;  ///< the part of scaled_error due to discretisation
 };
 
 /// A parameter that was not fitted and keeps its value.
@@ -47,7 +47,7 @@ struct Undetermined {
 /// Returns the correlation matrix for a covariance matrix.
 [[nodiscard]] Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
-/// Degrees of freedom that remain after fitting the parameters; at least 1.
+/// Returns the degrees of freedom that remain after fitting the parameters; at least 1.
 [[nodiscard]] int degrees_of_freedom(const Linearised& known);
 
 /// Explains in words why a parameter is held.

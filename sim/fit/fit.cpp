@@ -145,7 +145,7 @@ class Fitting {
     return predictor.predict(profile, spots_, quiet_);
   }
 
-  /// Predicted minus measured; NaN for points that are not used.
+  /// Returns predicted minus measured printed positions, mm; NaN for points that are not used.
   [[nodiscard]] VectorXd residuals_of(const Places& predicted) const {
     VectorXd r(2 * static_cast<Index>(spots_.size()));
     for (std::size_t i = 0; i < spots_.size(); ++i) {
@@ -249,8 +249,8 @@ class Fitting {
     out_.warnings.insert(out_.warnings.end(), motion_warnings_.begin(), motion_warnings_.end());
     if (free_.empty()) {
       out_.warnings.push_back({"nothing_determined",
-                               "the points determine none of the parameters; the profile is the "
-                               "starting one",
+                               "the points determine none of the parameters; the profile "
+                               "stays unchanged",
                                options_.points_name});
       return;
     }
@@ -291,7 +291,7 @@ class Fitting {
   VectorXd discretisation_;  ///< standard errors of u_ due to discretisation
   std::vector<Spot> spots_;
   Warnings motion_warnings_;  ///< warnings of the last prediction
-  double work_ = 0;           ///< work done, in dips; a finer dip counts more
+  double work_ = 0;           ///< work done, in dips; a finer dip counts as kFineDipCost
   Outcome out_;
 };
 

@@ -27,7 +27,7 @@ struct PointResult {
   Point point;
   /// The film point that lands there with the starting profile; NaN: none.
   Eigen::Vector2d before_mm;
-  Eigen::Vector2d after_mm;  ///< the same with the fitted profile
+  Eigen::Vector2d after_mm;  ///< the film point that lands there with the fitted profile
   std::string left_out;      ///< why the point is not used; empty: it is used
   bool is_outlier = false;   ///< its residual lies beyond 4 robust standard deviations
 
@@ -41,9 +41,9 @@ struct Outcome {
   Eigen::MatrixXd correlation;  ///< correlations of the estimates, in their order
   std::vector<Undetermined> undetermined;
   std::vector<PointResult> points;
-  /// Of the distances, on the film, of the points used.
+  /// Rms distance, on the film, between predicted and measured positions of the used points.
   double rms_before_mm = 0, rms_after_mm = 0;
-  double residual_sigma_mm = 0;  ///< standard deviation of one coordinate
+  double residual_sigma_mm = 0;  ///< standard deviation of one coordinate of the residuals
   double discretisation_mm = 0;  ///< rms change of the prediction with finer meshes and steps
   int degrees_of_freedom = 0;
   double t_quantile = 0;  ///< quantile of Student's t for two-sided intervals

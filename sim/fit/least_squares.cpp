@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 12;
 constexpr int kMostTrials = 5;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kSettledShare = 0.05;  ///< last step, as a fraction of the uncertainty
+constexpr double kSettledShare = 0.05;  ///< largest last step, as a fraction of the uncertainty
 constexpr double kMostStep = 1;
 
 /// Returns the mean squares of `a` and `b` over the rows in which neither is NaN.
@@ -37,7 +37,8 @@ std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   return {sum_a / static_cast<double>(count), sum_b / static_cast<double>(count)};
 }
 
-/// Minimises |r + J d|^2 + damping over the free parameters; the others change by `d`.
+/// Minimises |r + J d|^2 + damping over the free parameters; the other parameters
+/// change as given in `d`.
 void solve_free(const Linearised& known, double damping, const std::vector<Index>& free,
                 VectorXd& d) {
   HP_CHECK(damping >= 0);

@@ -11,7 +11,7 @@ namespace hydroprint::fit {
 /// NaN for a point without a prediction.
 using Residuals = std::function<Result<Eigen::VectorXd>(const Eigen::VectorXd& u)>;
 
-/// Bounds of the parameters, and their step sizes for derivatives; all scaled.
+/// Bounds of the parameters, and the step sizes for differentiation; all scaled.
 struct Domain {
   Eigen::VectorXd low, high, step;
 };
@@ -21,7 +21,7 @@ struct Linearised {
   Eigen::VectorXd residuals;
   Eigen::MatrixXd jacobian;
 
-  /// Returns the rows that are not NaN.
+  /// Returns the rows that do not contain NaN.
   [[nodiscard]] Linearised of_known() const;
 };
 

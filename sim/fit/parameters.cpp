@@ -14,9 +14,10 @@ namespace {
 constexpr double kPlausibleDrag_per_mm2 = 0.01;
 /// Maximum drag: a length of 1 mm.
 constexpr double kMostDrag_per_mm2 = 1;
-/// Longer drag lengths make no difference, and profiles do not allow them.
+/// Maximum drag length. Longer ones make no difference, and profiles do not allow them.
 constexpr double kLongestDrag_mm = 1e4;
-/// Above a swelling of 1.3, prints are blurred.
+/// Upper end of the plausible range of swelling minus 1. Above a swelling of 1.3, prints are
+/// blurred.
 constexpr double kPlausibleGrowth = 0.3;
 constexpr double kMostGrowth = 1;
 constexpr double kMostInk_mm = 10;
@@ -113,7 +114,7 @@ Result<std::vector<Parameter>> parse_parameters(const std::vector<std::string>& 
       is_free[2] = is_free[3] = true;
     } else {
       return fail(Code::kInvalidArgument,
-                  "'" + name + "' cannot be fitted. Use ink_ratio, drag, swelling");
+                  "'" + name + "' cannot be fitted. Use ink_ratio, drag or swelling");
     }
   }
   std::vector<Parameter> out;

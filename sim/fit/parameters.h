@@ -23,9 +23,9 @@ inline constexpr std::array<Parameter, 4> kAllParameters = {
 struct Description {
   std::string name;       ///< "ink_ratio_mm", "drag_length_mm", "swelling_x", "swelling_y"
   std::string plausible;  ///< the plausible range as text, in the units of the profile
-  double least = 0;       ///< the film's bound, scaled: always 0
-  double most = 0;        ///< the profile's other bound, scaled
-  double step = 0;        ///< scaled, for derivatives
+  double least = 0;       ///< lower bound, scaled: always 0
+  double most = 0;        ///< upper bound in profiles, scaled
+  double step = 0;        ///< step size for derivatives, scaled
 };
 
 /// @param profile  its film thickness is the scale of the ink ratio

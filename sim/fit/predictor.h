@@ -17,7 +17,7 @@ namespace hydroprint::fit {
 class Predictor {
  public:
   /// @param model    must outlive the predictor
-  /// @param options  all except the profile
+  /// @param options  options of the dip; predict() replaces the profile
   Predictor(const mesh::Model& model, pipeline::DipOptions options)
       : model_(model), options_(std::move(options)) {}
 

@@ -23,7 +23,7 @@ constexpr double kPanel_px = 760;  ///< length of the film's longer side
 constexpr double kGap_px = 30;
 constexpr double kTitle_px = 60;
 constexpr double kLetter_px = 12;
-constexpr double kArrow_px = 40;  ///< 95th percentile of the arrows' lengths
+constexpr double kArrow_px = 40;  ///< maximum 95th percentile of the arrows' lengths
 constexpr Rgb8 kInk = {40, 40, 40};
 constexpr Rgb8 kBlue = {0, 90, 181};
 constexpr Rgb8 kRed = {200, 30, 30};
@@ -47,8 +47,8 @@ struct Scale {
   }
 };
 
-/// Returns 1, 2 or 5 times a power of ten: the largest factor for which nearly all arrows stay
-/// short.
+/// Returns 1, 2 or 5 times a power of ten, at least 1: the largest factor for which 95 % of the
+/// arrows are at most kArrow_px long.
 double enlargement(const Outcome& outcome, const Panel& panel, double px_per_mm) {
   std::vector<double> lengths;
   for (const PointResult& p : outcome.points) {

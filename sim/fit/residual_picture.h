@@ -8,9 +8,9 @@
 namespace hydroprint::fit {
 
 /// Draws two pictures of the film seen from above, before and after the fit. They show its outline,
-/// the measured points (grey: not used, red: outliers) and, from each, an arrow to its prediction.
-/// The title states the magnification of the arrows. About 1600 pixels wide. Returns the errors of
-/// text::Font::standard().
+/// the measured points (grey: not used, red: outliers) and, from each used point, an arrow to its
+/// prediction. The titles state the magnification of the arrows. The image is about 1600 pixels
+/// wide. Returns the errors of text::Font::standard().
 [[nodiscard]] Result<image::RgbImage> residual_picture(const film::Outline& outline,
                                                        const Outcome& outcome);
 

@@ -18,7 +18,7 @@ constexpr double kOutlierSigmas = 4;
 /// Median of the absolute value of a standard normal variable.
 constexpr double kNormalMedian = 0.6744897501960817;
 
-/// Returns the number of used points that are apart from one another, up to the number needed.
+/// Returns the number of used points that are at least kApart_mm apart; at most kLeastPlaces.
 std::size_t places(const std::vector<PointResult>& points) {
   std::vector<Vector2d> apart;
   for (const PointResult& p : points) {

@@ -21,7 +21,7 @@ namespace hydroprint::fit {
 [[nodiscard]] Status check_enough(const std::vector<PointResult>& points, const std::string& name);
 
 /// Marks the used points whose residual after the fit lies beyond 4 robust standard deviations.
-/// @return the number of points that were not marked before
+/// @return the number of newly marked points
 int mark_outliers(std::vector<PointResult>& points, double floor_mm);
 
 }  // namespace hydroprint::fit

@@ -64,7 +64,7 @@ Vector3d nearest_in(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   return best;
 }
 
-/// Distance of p from a triangle's bounding box.
+/// Returns the distance of p from a triangle's bounding box.
 double box_distance(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   const auto& [a, b, c] = corners;
   const Vector3d below = a.cwiseMin(b).cwiseMin(c) - p;

@@ -42,7 +42,7 @@ MatrixXd inverse_normal(const Directions& d) {
   return d.known * d.inverse_square.asDiagonal() * d.known.transpose();
 }
 
-/// Returns the root mean square displacement of the points for a step of 1.
+/// Returns the rms displacement of the points for a step of 1 in parameter j.
 double moves_mm(const MatrixXd& jacobian, Index j) {
   const double points = 0.5 * static_cast<double>(std::max<Index>(jacobian.rows(), 1));
   return std::sqrt(jacobian.col(j).squaredNorm() / points);
@@ -56,7 +56,7 @@ double half_width(const MatrixXd& covariance, Index j, double t) {
   return t * std::sqrt(std::max(covariance(j, j), 0.0));
 }
 
-/// Returns the parameter whose estimate is most correlated with another one.
+/// Returns the parameter whose estimate is most correlated with that of `parameter`.
 Index partner(const MatrixXd& covariance, Index parameter) {
   Index best = -1;
   double most = 0;

@@ -26,7 +26,7 @@ namespace hydroprint::fit {
 /// @param degrees      of freedom, above 0
 [[nodiscard]] double student_t(double probability, double degrees);
 
-/// Why a parameter is unknown.
+/// A parameter that the points do not determine, and the reason.
 struct Unknown {
   Eigen::Index parameter = 0;
   double moves_mm = 0;    ///< rms displacement of the points over the parameter's plausible range
@@ -36,10 +36,9 @@ struct Unknown {
   Eigen::Index taken_for = -1;
 };
 
-/// Returns the scaled parameters that the points do not determine and that are therefore held one
-/// after the other. These are the parameters whose interval is wider than the plausible range.
-/// First come those that would be undetermined even if all others were known. If there are none,
-/// returns the least certain of those that are undetermined only together.
+/// Returns the parameters to hold next, because their interval is wider than the plausible range.
+/// These are the parameters that would be undetermined even if all others were known. If there are
+/// no such parameters, only the least certain of those that are undetermined together is returned.
 /// @param t  quantile that converts a standard error to an interval
 [[nodiscard]] std::vector<Unknown> unknowns(const Linearised& known, double floor_mm, double t);
 

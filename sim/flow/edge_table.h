@@ -18,7 +18,7 @@ class EdgeTable {
  public:
   explicit EdgeTable(std::size_t expected = 0) : slots_(std::bit_ceil(2 * expected + 16)) {}
 
-  /// Returns the value of an edge, or nullptr; valid until the next set().
+  /// Returns the value of an edge, or nullptr if it has none; valid until the next set().
   [[nodiscard]] const T* find(int a, int b) const {
     const Slot& slot = slots_[place(key_of(a, b))];
     return slot.key == kNone ? nullptr : &slot.value;

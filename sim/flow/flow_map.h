@@ -24,8 +24,8 @@ struct MapOptions {
 };
 
 /// Adapts options made for 600 dpi to an image of another resolution. Larger pixels allow a coarser
-/// map: tolerance and least edge stay the same in pixels down to 150 dpi. Higher resolutions change
-/// nothing.
+/// map: tolerance and least edge stay the same in pixels down to 150 dpi. Resolutions above 600 dpi
+/// change nothing.
 /// @param dpi  positive
 [[nodiscard]] MapOptions for_resolution(MapOptions options, double dpi);
 

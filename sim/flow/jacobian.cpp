@@ -12,7 +12,7 @@ namespace hydroprint::flow {
 namespace {
 
 /// A triangle with a smaller stretch than this lies across a jump of the map. At 170 degrees, where
-/// eq. (1) ends, a sphere compresses the film to cos(85 deg) = 0.087.
+/// eq. (1) is clamped, a sphere compresses the film to cos(85 deg) = 0.087.
 constexpr double kLeastStretch = 0.05;
 
 }  // namespace

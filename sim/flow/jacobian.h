@@ -15,8 +15,8 @@ struct Stretch {
   double most = 0, least = 0;
 };
 
-/// Stretch of the film where the inverse map has this gradient; infinite where the film is
-/// stretched without limit.
+/// Returns the stretch of the film where the inverse map has this gradient; infinite where the film
+/// is stretched without limit.
 [[nodiscard]] Stretch stretch_of(const Gradient& gradient);
 
 /// Returns the gradient on one triangle, where it is constant.
@@ -26,8 +26,8 @@ struct Stretch {
 
 /// Computes the gradient at each point: the area-weighted mean over the triangles around it. The
 /// mean of the inverse map's gradients stays finite where the film is stretched without limit.
-/// @param film_mm  per point. Ignores triangles with a NaN corner, with the film upside down, or
-///                 across a jump of the map
+/// @param film_mm  for each point. Triangles with a NaN corner, with the film upside down, or
+///                 across a jump of the map are ignored
 /// @return NaN at points without a triangle
 [[nodiscard]] std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
                                                     const std::vector<Eigen::Vector3d>& surface_mm,

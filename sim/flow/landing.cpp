@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double kCreaseCosine = 0.95;  ///< corner normals further apart make a crease
+/// Corner normals with a smaller cosine between them make a crease.
+constexpr double kCreaseCosine = 0.95;
 
 }  // namespace
 

@@ -18,8 +18,8 @@ struct Landing {
   bool film_can_follow = false;  ///< false: no film arrives, because the surface recedes too fast
 };
 
-/// Combines the landings that several triangles have at a shared point: the mean of their pulls;
-/// smooth if all of them are.
+/// Combines the landings that two triangles have at a shared point: the mean of their pulls; smooth
+/// if both landings are smooth.
 [[nodiscard]] Landing shared(const Landing& a, const Landing& b);
 
 /// The landings of a body's surface.
@@ -27,7 +27,8 @@ class Landings {
  public:
   Landings(const waterline::Body& body, const waterline::Motion& motion);
 
-  /// Landing of each welded point; a point without triangles lies infinitely deep.
+  /// Returns the landing of each welded point; the immersion of a point without triangles is
+  /// infinite.
   [[nodiscard]] const std::vector<Landing>& of_points() const { return points_; }
 
   /// Returns the landing at a point inside a triangle; `barycentric` refers to corners 0, 1, 2.

@@ -17,10 +17,11 @@ struct SurfaceMap {
 };
 
 /// A small triangle of the surface on which the map from surface to film is continuous, and linear
-/// to within its tolerance. Together these triangles tile the part that the film reaches.
+/// to within a tolerance (MapOptions). Together these triangles tile the part that the film
+/// reaches.
 struct MappedTriangle {
   std::array<Eigen::Vector2d, 3> film_mm;  ///< counter-clockwise seen from above
-  int triangle = 0;                        ///< into mesh::Surface::triangles
+  int triangle = 0;                        ///< index into mesh::Surface::triangles
   /// The three corners in barycentric coordinates (corners 0, 1, 2) of the triangle with index
   /// `triangle`.
   std::array<Eigen::Vector3f, 3> barycentric;

@@ -22,7 +22,7 @@ constexpr std::size_t kMostEdges = 400000;
 /// end.
 constexpr int kMostLevels = 6;
 
-/// A corner of tiles: its place on the surface and the film that lands there (NaN: none).
+/// A corner of tiles: its place on the surface and the film point that lands there (NaN: none).
 struct Node {
   Vector3d surface_mm;
   Vector2d film_mm;
@@ -46,12 +46,12 @@ struct Edge {
   Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
-  /// One map for each of the tiles on its two sides.
+  /// One map for each of the tiles on the two sides of the edge.
   std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
   int sides = 0;
 
   /// Returns the distance on the surface that corresponds to `off_mm` on the film; the larger of
-  /// both sides.
+  /// those on the two sides of the edge.
   [[nodiscard]] double off_on_surface_mm(const Vector2d& off_mm) const {
     double most = 0;
     for (int i = 0; i < sides; ++i) most = std::max(most, (side[i] * off_mm).norm());
@@ -112,9 +112,9 @@ class Tiler {
   std::vector<MappedTriangle> take() { return std::move(done_); }
 
  private:
-  /// Marks edges of the mesh itself as linear if the map deviates too little from a straight line
-  /// along them. The deviation is estimated at the middle of a cubic through the gradients at both
-  /// ends.
+  /// Marks edges of the mesh itself as linear if the map along them deviates from a straight line
+  /// by less than half the tolerance. The deviation is estimated at the middle of a cubic through
+  /// the gradients at both ends.
   void trust_smooth_edges(const std::vector<Gradient>& gradient) {
     for (const Tile& tile : active_) {
       for (int i = 0; i < 3; ++i) {
@@ -186,7 +186,7 @@ class Tiler {
       EdgeState state = EdgeState::kLinear;
       const double surface_mm = (b.surface_mm - a.surface_mm).norm();
       if (std::min(off_mm, edge.off_on_surface_mm(off)) <=
-          tolerance_mm_) {  // false if any of the three is NaN
+          tolerance_mm_) {  // false if any of the three film points is NaN
         state = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
         state = EdgeState::kLinear;  // nothing lands there at all
@@ -230,7 +230,7 @@ class Tiler {
     const auto bary_middle = [&](int i) -> Vector3d {
       return 0.5 * (tile.barycentric[(i + 1) % 3] + tile.barycentric[(i + 2) % 3]);
     };
-    // Corners of the polygon around the tile, starting so that the pattern below fits.
+    // A corner of the tile, or the midpoint of one of its edges.
     struct Corner {
       int node;
       Vector3d barycentric;
@@ -255,7 +255,8 @@ class Tiler {
       add(corner(i), mid(i), corner(i + 2));
       return;
     }
-    const int whole = middle[0] < 0 ? 0 : (middle[1] < 0 ? 1 : 2);  // opposite this corner
+    // The edge opposite this corner is not divided.
+    const int whole = middle[0] < 0 ? 0 : (middle[1] < 0 ? 1 : 2);
     add(corner(whole), mid(whole + 2), mid(whole + 1));
     add(mid(whole + 2), corner(whole + 1), mid(whole + 1));
     add(corner(whole + 1), corner(whole + 2), mid(whole + 1));

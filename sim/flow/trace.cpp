@@ -35,17 +35,17 @@ struct BackPath {
   double immersion_mm;
   Vector2d velocity;                           ///< velocity of the film at that point and immersion
   std::size_t after;                           ///< number of waterlines still before it
-  Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
+  Vector2d later_velocity = Vector2d::Zero();  ///< velocity one step later in the dip
   double later_span_mm = 0;
-  bool keeps_on = false;  ///< if there is no film, keeps its velocity; otherwise the path is lost
+  bool keeps_on = false;  ///< where there is no film, keeps its velocity instead of being lost
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
 };
 
 /// Returns the displacement over a step, from the velocity at its start and the predicted one at
-/// its end. Quadratic in time through these and the previous velocity (Adams-Moulton rule for
-/// uneven steps); linear if there is no previous one.
+/// its end. The velocity is interpolated in time through these and the previous velocity
+/// (Adams-Moulton rule for uneven steps), or linearly where the rule restarts (kMostGrowth).
 Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_velocity) {
   const double g = path.later_span_mm;
   const double h = span_mm;
@@ -114,7 +114,7 @@ std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) 
 
 /// Follows all paths back through the dip together, waterline by waterline, so that each film mesh
 /// is read only once.
-/// @param first  the waterline at which they end
+/// @param first  the waterline at which the paths end
 void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t first = 0) {
   std::size_t most = 0;
   for (const BackPath& path : paths) most = std::max(most, path.after);
@@ -167,7 +167,7 @@ bool velocity_at(const DipField& dip, const Landing& landing, std::size_t after,
   return true;
 }
 
-/// The path that ends in a landing; lost if no film arrives.
+/// Returns the path that ends in a landing; it is lost if no film arrives.
 BackPath path_to(const DipField& dip, const Landing& landing) {
   const auto after = static_cast<std::size_t>(
       std::upper_bound(dip.immersion_mm.begin(), dip.immersion_mm.end(), landing.immersion_mm) -
@@ -230,7 +230,7 @@ std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k, const RestM
   for (std::size_t n = 0; n < field.nodes().size(); ++n) {
     BackPath& path = paths.emplace_back(
         BackPath{velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
-    path.keeps_on = true;  // this is certainly film
+    path.keeps_on = true;  // nodes of the film mesh are certainly film
   }
   follow_back(dip, paths, known != nullptr ? known->waterline : 0);
   if (known == nullptr) come_to_rest(dip, paths);

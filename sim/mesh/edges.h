@@ -16,8 +16,8 @@ class Edges {
   Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld);
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
-  /// Returns the sides on edge e in ascending order: one at a boundary, two on a manifold, more
-  /// elsewhere.
+  /// Returns the sides on edge e in ascending order: one at a boundary, two where the surface is
+  /// manifold, otherwise more.
   [[nodiscard]] std::span<const int> sides(std::size_t e) const {
     return std::span(sides_).subspan(begin_[e], begin_[e + 1] - begin_[e]);
   }

@@ -77,14 +77,14 @@ void warn_about_size(const Model& model, Surface& surface) {
   warn(surface, model, "small_or_large_object",
        fmt::format("the largest side is {} mm: if the file is in {}", three_digits(largest_mm),
                    largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
-                                         : "micrometres or thousandths, give --scale 0.001"));
+                                         : "micrometres, give --scale 0.001"));
 }
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
   if (found.inconsistent > 0 || found.one_sided > 0)
     warn(surface, model, "inconsistent_orientation",
-         fmt::format("{} faces were turned over to agree with their neighbours, {} edges disagree "
-                     "either way",
+         fmt::format("{} faces were turned over to agree with their neighbours; {} edges disagree "
+                     "in any orientation",
                      found.inconsistent, found.one_sided));
   if (found.inside_out > 0)
     warn(surface, model, "inside_out",
@@ -92,8 +92,9 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
                      found.shells));
   if (found.shells > 1)
     warn(surface, model, "many_shells",
-         fmt::format("{} separate shells ({} of them cavities inside another): their union is used",
-                     found.shells, found.cavities));
+         fmt::format(
+             "{} separate shells ({} of them cavities inside another shell): their union is used",
+             found.shells, found.cavities));
 }
 
 /// @return true if every edge has two faces with opposite directions
@@ -157,8 +158,9 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   if (!subdivided && subdivided.error().code == Code::kResourceExhausted)
     return fail(
         Code::kResourceExhausted,
-        fmt::format("{}: subdividing its faces to edges of {} mm takes {}; give a smaller --scale",
-                    name, max_edge_mm, subdivided.error().message));
+        fmt::format(
+            "{}: subdividing its faces to edges of {} mm would take {}; give a smaller --scale",
+            name, max_edge_mm, subdivided.error().message));
   if (!subdivided) return tl::unexpected(std::move(subdivided).error());
   work = std::move(*subdivided);
   if (work.triangles.size() != before) edges = Edges(work.triangles, work.weld);

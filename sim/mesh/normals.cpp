@@ -52,8 +52,8 @@ Result<Faces> measure(const std::vector<Eigen::Vector3d>& points,
   return faces;
 }
 
-/// Groups corners that share a normal. The number of a corner is that of the side that begins at
-/// it.
+/// Groups corners that share a normal. A corner has the number of the side that begins at the
+/// corner.
 Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
                       const Edges& edges, const std::vector<Eigen::Vector3d>& normals) {
   HP_CHECK(normals.size() == triangles.size());

@@ -21,8 +21,8 @@ struct Patch {
   Eigen::AlignedBox3d box;
 };
 
-/// Limit for the tests that distinguish cavities from inverted parts (about a second). Beyond it, a
-/// part within the bounding box of another counts as a cavity.
+/// Maximum number of triangles that are examined (in about a second) to distinguish cavities from
+/// inverted parts. Beyond it, a part within the bounding box of another counts as a cavity.
 constexpr std::size_t kMaxWindingTriangles = 100'000'000;
 
 class Orienter {
@@ -167,7 +167,8 @@ class Orienter {
     patch.turned = !patch.turned;
   }
 
-  /// Solid angle of triangle t from q, over 4 pi (van Oosterom and Strackee 1983).
+  /// Returns the signed solid angle of triangle t seen from q, divided by 4 pi (van Oosterom and
+  /// Strackee 1983).
   [[nodiscard]] double winding(std::size_t t, const Eigen::Vector3d& q) const {
     const Eigen::Vector3d a = point(triangles_[t][0]) - q;
     const Eigen::Vector3d b = point(triangles_[t][1]) - q;

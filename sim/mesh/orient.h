@@ -14,13 +14,14 @@ struct Orientation {
   std::size_t inconsistent = 0;  ///< triangles flipped to agree with most of their neighbours
   std::size_t one_sided = 0;     ///< edges whose faces cannot agree (Moebius strips)
   std::size_t inside_out = 0;    ///< shells flipped because their volume was negative
-  std::size_t cavities = 0;      ///< closed shells that bound a cavity inside another
+  std::size_t cavities = 0;      ///< closed shells that bound a cavity inside another shell
   std::size_t shells = 0;        ///< parts that share no edge
 };
 
-/// Makes neighbours across edges of two faces agree by flipping the minority. Then flips parts with
-/// a negative volume, except cavities inside another part. To measure volumes, open parts are
-/// closed by a cone to the middle of their boundary. Flat parts stay unchanged.
+/// Orients faces that share an edge of exactly two faces consistently, by flipping the minority.
+/// Then flips parts with a negative volume, except cavities inside another part. To measure
+/// volumes, open parts are closed by a cone to the middle of their boundary. Flat parts stay
+/// unchanged.
 [[nodiscard]] Orientation orient(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<int>& weld,
                                  const std::vector<Eigen::Vector3i>& triangles, const Edges& edges);

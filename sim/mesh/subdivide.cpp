@@ -26,7 +26,7 @@ class Pass {
     std::size_t cuts = 0;
     for (int side = 0; side < static_cast<int>(3 * work_.triangles.size()); ++side)
       if (is_long(side)) ++cuts;
-    return work_.triangles.size() + cuts;  // each cut side adds one triangle to its own
+    return work_.triangles.size() + cuts;  // each cut side adds one triangle
   }
 
   void run(std::size_t count) {
@@ -90,7 +90,7 @@ class Pass {
       for (std::size_t k = 0; k < 3; ++k) emit(corner[k], m[k], m[(k + 2) % 3]);
       return emit(m[0], m[1], m[2]);
     }
-    // Rotates the corners so that sides 0 (and 1, if two are cut) are the cut ones.
+    // Rotates the corners so that side 0 (and side 1, if two are cut) is cut.
     std::size_t s = 0;
     while (!cut[s] || (cuts == 2 && !cut[(s + 1) % 3])) ++s;
     const auto& a = corner[s];

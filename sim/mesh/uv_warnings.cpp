@@ -18,7 +18,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Counts how often each point of one texture is used, up to two.
+/// Counts the uses of each point of one texture, up to two.
 class Coverage {
  public:
   void add(const Uvs& uvs) {

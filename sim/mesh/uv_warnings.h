@@ -6,8 +6,8 @@ namespace hydroprint::mesh {
 
 /// Returns warnings about unusual texture coordinates. `uv_overlapping`: more than 0.5 % of the
 /// used texture is used twice (measured at 1024 x 1024 points, per material). `uv_mirrored`: more
-/// than 0.5 % of the area in the texture appears mirrored on the object. Both are often intended,
-/// so they are not errors.
+/// than 0.5 % of the area in the texture appears mirrored on the object. Overlapping and mirrored
+/// coordinates are often intended, so they are not errors.
 [[nodiscard]] Warnings uv_warnings(const Model& model);
 
 }  // namespace hydroprint::mesh

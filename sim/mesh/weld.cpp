@@ -15,7 +15,7 @@ using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
 /// Points by grid cell, in a hash table. Cells in the same slot share a chain; the distance test
 /// separates them. Only representatives are stored, so a cell with a side of four tolerances
-/// contains a bounded number.
+/// contains a bounded number of points.
 class Grid {
  public:
   Grid(const std::vector<Eigen::Vector3d>& points, double tolerance)

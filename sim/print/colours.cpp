@@ -56,7 +56,7 @@ int total(const std::uint8_t* cmyk) { return cmyk[0] + cmyk[1] + cmyk[2] + cmyk[
 
 /// Effect of the ink limit on a row.
 struct Limited {
-  int most = 0;  ///< largest sum of a pixel after the limit, out of 4 * 255
+  int most = 0;  ///< largest sum of a pixel's channels after the limit, out of 4 * 255
   std::size_t changed = 0;
 };
 
@@ -79,12 +79,14 @@ Limited limit_ink(std::uint8_t* cmyk, std::size_t count, int most) {
 
 Status check_limit(double ink_limit) {
   if (ink_limit > 0 && ink_limit <= ink::kMostInk) return {};
-  return fail(Code::kOutOfRange,
-              fmt::format("ink limit: {} is out of range. Use C + M + Y + K above 0 and at most {}",
-                          ink_limit, ink::kMostInk));
+  return fail(
+      Code::kOutOfRange,
+      fmt::format(
+          "ink limit: {} is out of range. Use a limit of C + M + Y + K above 0 and at most {}",
+          ink_limit, ink::kMostInk));
 }
 
-/// Returns the conversion for the settings; sets the number of channels.
+/// Returns the conversion for the settings. Sets the number of channels and the profile of `out`.
 Result<Convert> converter(const ColourSettings& settings, PrinterColoured& out) {
   if (!settings.icc_profile.empty()) {
     HP_ASSIGN_OR_RETURN(const auto colours, ink::PrinterColours::open(settings.icc_profile));

@@ -19,10 +19,11 @@ struct PrinterColoured {
 };
 
 /// Converts 8-bit sRGB to the printer's colours, consistently with ink::make_separation. White is
-/// printed without ink even if the profile maps it to some, because an unprinted film has none.
+/// printed without ink, even if the profile assigns ink to it, because an unprinted film has none.
 /// Beyond the ink limit, C, M and Y are reduced by the same factor, and K only if it alone exceeds
 /// the limit. The bytes are the same for any number of threads. Returns the errors of
-/// ink::PrinterColours, and kOutOfRange for an ink limit out of range.
+/// ink::PrinterColours, kOutOfRange for an ink limit out of range, and kInvalidArgument for an ink
+/// limit with RGB.
 [[nodiscard]] Result<PrinterColoured> printer_coloured(const image::RgbImage& image,
                                                        const ColourSettings& settings,
                                                        const Context& context);

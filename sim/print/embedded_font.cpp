@@ -13,7 +13,7 @@
 namespace hydroprint::print {
 namespace {
 
-constexpr std::size_t kMostPerSection = 100;  ///< entries of a CMap's section
+constexpr std::size_t kMostPerSection = 100;  ///< maximum number of entries in a CMap's section
 
 /// Returns four hexadecimal digits.
 std::string hex16(unsigned value) { return fmt::format("{:04X}", value); }

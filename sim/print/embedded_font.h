@@ -16,10 +16,10 @@ namespace hydroprint::print {
 struct EmbeddedFont {
   const text::Font* font = nullptr;
   std::map<char32_t, unsigned> cids;  ///< 1, 2, ... in the order of the characters
-  text::FontMetrics metrics;          ///< the name with the tag of a subset: "ABCDEF+DejaVuSans"
+  text::FontMetrics metrics;          ///< its name has the tag of a subset: "ABCDEF+DejaVuSans"
   std::vector<double> widths;         ///< by CID, in thousandths of the em
-  std::string file;                   ///< TrueType, glyphs of these characters only
-  std::string cid_to_gid;             ///< its glyphs by CID, two bytes each
+  std::string file;                   ///< TrueType file with the glyphs of these characters only
+  std::string cid_to_gid;             ///< glyph numbers in `file` by CID, two bytes each
   std::string to_unicode;             ///< a CMap: characters by CID
 
   /// Encodes a line of text as a hexadecimal string of CIDs.

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 constexpr double kCell_mm = 0.5;
 constexpr double kRounding_mm = 1e-9;
 
-/// Returns the points at which a polygon's edges cross a height, from left to right.
+/// Returns the x at which a polygon's edges cross the height y, from left to right.
 std::vector<double> crossings(const std::vector<Vector2d>& polygon, double y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -91,8 +91,8 @@ bool FreeSpace::is_free(const Box& box) const {
   return true;
 }
 
-/// Entry (x, y) of (columns + 1) x (rows + 1) is the number of taken cells to the left of it and
-/// below it.
+/// Returns a table of (columns + 1) x (rows + 1) counts. Entry (x, y) is the number of taken cells
+/// left of column x and below row y.
 std::vector<int> FreeSpace::taken_sums() const {
   const std::size_t stride = static_cast<std::size_t>(columns_) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(rows_) + 1));

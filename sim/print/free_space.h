@@ -14,7 +14,7 @@ struct Box {
 };
 
 /// Keeps track of the free part of a sheet, for placing marks, in cells of half a millimetre. A
-/// cell is taken if any part of it is.
+/// cell counts as taken if any part of it is taken.
 class FreeSpace {
  public:
   /// @param printable  part of the sheet, initially free

@@ -23,13 +23,13 @@ constexpr double kRounding_mm = 1e-6;
 
 Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
 
-/// Windows along one side of the film image; each is [first, end).
+/// A window along one side of the film image: pixels [first, end).
 struct Cut {
   int first = 0, end = 0;
 };
 
-/// Returns the smallest number of equal windows of at most `most_px` that cover `size_px` with at
-/// least this overlap; empty if there would be too many.
+/// Returns the smallest number of equal windows of at most `most_px` that cover `size_px` and
+/// overlap by at least `overlap_px`; empty if there would be too many.
 std::vector<Cut> cuts(int size_px, int most_px, int overlap_px) {
   HP_CHECK(size_px > 0);
   HP_CHECK(overlap_px >= 0);
@@ -83,7 +83,7 @@ Result<Cuts> best_cuts(const image::FilmGrid& grid, const film::Outline& outline
                           outline.name, kMostSheets));
 }
 
-/// The pixels of a window within the area that the printer can print.
+/// Returns the pixels of a window within the area that the printer can print.
 Pixels printable_pixels(const Sheet& sheet, const Box& printable, double pitch_mm) {
   const Vector2d high_mm =
       sheet.low_mm + Vector2d(sheet.window.width(), sheet.window.height()) * pitch_mm;
@@ -91,7 +91,7 @@ Pixels printable_pixels(const Sheet& sheet, const Box& printable, double pitch_m
     const double pixels = std::ceil(beyond_mm / pitch_mm - kRounding_mm);
     return std::clamp(static_cast<int>(pixels), 0, most);
   };
-  // An image is rounded to whole pixels, so losing half a pixel does not matter.
+  // The size of an image is rounded to whole pixels, so half a pixel beyond the edge is ignored.
   const Vector2d slack = Vector2d::Constant(pitch_mm / 2 + kRounding_mm);
   const Vector2d low = printable.low_mm - sheet.low_mm - slack;
   const Vector2d high = high_mm - printable.high_mm - slack;
@@ -114,7 +114,7 @@ class ToPage {
     if (mirror_) cell.x() = grid_.columns - cell.x();
     return from_cell(cell);
   }
-  /// From pixels of the image as printed, y down.
+  /// Returns the point on the page for a position in the image as printed (pixels, y down).
   [[nodiscard]] Vector2d from_cell(const Vector2d& cell) const {
     return sheet_.low_mm +
            grid_.pitch_mm * Vector2d(cell.x() - sheet_.window.x0, sheet_.window.y1 - cell.y());
@@ -128,7 +128,7 @@ class ToPage {
 
 Box box_between(const Vector2d& a, const Vector2d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
-/// Returns the film's outline on the sheet, or its window if the film is on several sheets.
+/// Returns the film's outline on the sheet, or the sheet's window if the film is on several sheets.
 std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
                               const ToPage& to_page, bool is_part, double pitch_mm) {
   if (is_part) {
@@ -141,7 +141,7 @@ std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
   return out;
 }
 
-/// Edges of other windows that lie inside this one.
+/// Returns the edges of the neighbouring windows that lie inside window `own`.
 std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
   HP_CHECK(own < cuts.size());
   std::vector<double> out;

@@ -22,9 +22,9 @@ struct Pixels {
 };
 
 /// One sheet of paper with its part of the film image. Coordinates are in the page's frame
-/// (Stroke).
+/// (see Stroke).
 struct Sheet {
-  /// In the orientation in which the printer feeds it.
+  /// Size of the paper, in the orientation in which the printer feeds it.
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
   int column = 0, row = 0;  ///< position among the sheets; row 0 at the top
   Pixels window;            ///< part of the printed film image (mirrored if requested)

@@ -19,9 +19,9 @@ using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< distance of marks from the film
-constexpr double kOff_mm = 2;        ///< distance of a registration mark from the film's edge
-constexpr double kMark_mm = 5;       ///< length of a mark
-constexpr double kBleed_mm = 0.5;    ///< around the arrow
+constexpr double kOff_mm = 2;      ///< distance of registration, corner and join marks from an edge
+constexpr double kMark_mm = 5;     ///< length of a registration, corner or join mark
+constexpr double kBleed_mm = 0.5;  ///< free space around the arrow
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
   return {{from_mm, to_mm}, kPen_mm, 1};
@@ -95,7 +95,7 @@ class Marker {
 Vector2d middle_of(const Box& box) { return (box.low_mm + box.high_mm) / 2; }
 
 /// Returns marks outside a box: below and above it at the given x, and to its left and right at the
-/// given y. Both are relative to its middle.
+/// given y. These x and y are relative to the box's middle.
 Strokes side_marks(const Box& box, const std::vector<double>& at_x,
                    const std::vector<double>& at_y) {
   Strokes out;
@@ -146,7 +146,7 @@ Strokes on_this_sheet(Strokes marks, const Box& window) {
   return marks;
 }
 
-/// An arrow to the film's +y, which is up, with a label beside it.
+/// Length of the arrow to the film's +y, which points up and has a label beside it.
 constexpr double kArrow_mm = 12;
 constexpr double kArrowText_mm = 3.5;  ///< distance from the arrow to its label
 const Vector2d kArrowFoot_mm(2.5, kBleed_mm);
@@ -181,7 +181,8 @@ void add_ruler(Marker& marker, const Box& printable, bool upright) {
   marker.note(upright ? "upright ruler" : "ruler", false);
 }
 
-/// Returns the job name and the details on one line of at most that width.
+/// Returns the job name and the details on one line of at most `width` (in heights of a
+/// lower-case x).
 std::string text_line(const MarkPlan& plan, const text::Font& font, double width) {
   if (plan.job_name.empty()) return font.shortened(plan.details, width);
   const std::string rest = plan.details.empty() ? "" : "  " + plan.details;

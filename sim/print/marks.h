@@ -13,10 +13,11 @@ struct MarkPlan {
   Box printable;
   Box film;    ///< bounding box of the film, which may extend beyond the sheet
   Box window;  ///< the part of the film image on this sheet
-  /// Edges of neighbouring sheets' windows within this one.
+  /// Edges of neighbouring sheets' windows within the window of this sheet.
   std::vector<double> joins_x_mm, joins_y_mm;
   double bar_mm = 0;
-  /// The line of text; empty: none. The job name is shortened if the line is too long.
+  /// The two parts of the line of text; empty: none. The job name is shortened if the line is too
+  /// long.
   std::string job_name, details;
 };
 

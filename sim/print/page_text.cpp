@@ -11,9 +11,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kAround_mm = 0.5;  ///< left free around a block
-constexpr double kLineStep = 2.8;   ///< between baselines, in heights of a lower-case x
-constexpr double kLeastWidth = 12;  ///< minimum width of a shortened block, in the same unit
+constexpr double kAround_mm = 0.5;  ///< free space on each side of a block
+constexpr double kLineStep = 2.8;   ///< distance of baselines, in heights of a lower-case x
+/// Minimum width of a shortened block, in heights of a lower-case x.
+constexpr double kLeastWidth = 12;
 constexpr int kBisections = 12;
 
 /// Lines laid out one below the other, with the first baseline starting at (0, 0); in heights of a

@@ -28,7 +28,8 @@ using FindRoom = std::function<std::optional<Box>(const Eigen::Vector2d& size_mm
 
 /// Places lines of text one below the other, at the largest size for which there is space, with a
 /// lower-case x 1.6 mm to 0.9 mm high. If even the smallest size does not fit, the lines are
-/// shortened. Returns nullopt if little would be left of them.
+/// shortened. Returns nullopt if even a width of 12 times the height of a lower-case x does not
+/// fit.
 [[nodiscard]] std::optional<TextBlock> place_text(const text::Font& font, const LinesOfWidth& lines,
                                                   const FindRoom& find_room);
 

@@ -4,7 +4,8 @@
 // in one thread, so images are compressed in advance as in a PNG, which PDF accepts unchanged.
 #include "sim/print/pdf.h"
 
-#define POINTERHOLDER_TRANSITION 4  // required by its headers; 4: its old pointers are not used
+// Required by the headers of QPDF; 4: its deprecated pointer type is not used.
+#define POINTERHOLDER_TRANSITION 4
 
 #include <fmt/format.h>
 
@@ -98,8 +99,8 @@ QPDFObjectHandle box(const Eigen::Vector2d& size_mm) {
 QPDFObjectHandle real(double value) { return QPDFObjectHandle::newReal(number(value)); }
 
 QPDFObjectHandle font_descriptor(QPDF& pdf, const EmbeddedFont& font) {
-  constexpr int kSymbolic = 4;  // its characters are not those of a standard set
-  constexpr int kStem = 80;     // an estimate; viewers use it only without the font
+  constexpr int kSymbolic = 4;  // the characters of the font are not a standard set
+  constexpr int kStem = 80;     // an estimate, used only by viewers that substitute the font
   const text::FontMetrics& metrics = font.metrics;
   QPDFObjectHandle file = QPDFObjectHandle::newStream(&pdf, font.file);
   file.getDict().replaceKey("/Length1", integer(static_cast<long long>(font.file.size())));

@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector2d;
 using Strokes = std::vector<Stroke>;
 
-constexpr double kSlice_mm = 0.5;  ///< between the cuts that form the silhouette
+constexpr double kSlice_mm = 0.5;  ///< distance between the cuts that form the silhouette
 constexpr int kMostSlices = 400;
 constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
 
@@ -39,7 +39,8 @@ Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& set
               "paper: smaller than the film " + outline.name + ". Use paper of its size or larger");
 }
 
-/// Outline of the part of the object at or below an immersion, seen from above.
+/// Returns the outline, seen from above, of the part of the object up to `height_mm` above its
+/// lowest point.
 waterline::CrossSection silhouette(const waterline::Slicer& slicer, double height_mm) {
   const int slices = std::clamp(static_cast<int>(height_mm / kSlice_mm), 1, kMostSlices);
   std::vector<waterline::Contour> all;
@@ -75,7 +76,7 @@ Box box_round(const waterline::CrossSection& section) {
 
 void append(Page& page, Drawing drawing) { append(page.strokes, page.texts, std::move(drawing)); }
 
-/// Both axes over the whole film, with a tick every 10 mm, longer every 50 mm.
+/// Draws both axes across the whole film, with a tick every 10 mm and a longer one every 50 mm.
 Drawing axes(const film::Outline& outline, const Vector2d& origin_mm) {
   Drawing out;
   for (int axis = 0; axis < 2; ++axis) {
@@ -209,7 +210,7 @@ Status check_contact(const waterline::CrossSection& contact, const film::Outline
   if (!solid.empty() && waterline::common_area({outline.polygon}, solid) > 0) return {};
   return fail(Code::kFailedPrecondition,
               "pose: the object's first contact misses the film " + outline.name +
-                  "; move the object over the film (translation_mm) or take a larger --film",
+                  ". Move the object over the film (translation_mm), or use a larger --film",
               "CONTACT_MISSES_FILM");
 }
 

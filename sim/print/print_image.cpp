@@ -20,7 +20,8 @@ constexpr double kMmPerInch = 25.4;
 /// Returns "2480 x 3508".
 std::string size_text(int width, int height) { return fmt::format("{} x {}", width, height); }
 
-/// Returns the dots per inch of an image with the size of a film image of this film.
+/// Returns the resolution at which a film image of this film has the size of `image`: `given`, or a
+/// whole number of dots per inch.
 Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
                       const film::Outline& outline, std::optional<double> given) {
   const double guess = std::max(1.0, std::round(image.width * kMmPerInch / outline.size_mm().x()));

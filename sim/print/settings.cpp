@@ -15,7 +15,7 @@ constexpr double kMostBar_mm = 2000;
 
 tl::unexpected<Error> out_of_range(const std::string& what, double value, double most) {
   return fail(Code::kOutOfRange,
-              fmt::format("{}: {} mm is out of range. Use 0 to {}", what, value, most));
+              fmt::format("{}: {} mm is out of range. Use 0 to {} mm", what, value, most));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace hydroprint::print {
 
 /// The paper for a film image, and the layout of the image on it.
 struct PageSettings {
-  /// As it lies in the tray; the image is rotated if it fits better.
+  /// Size of the paper as it lies in the tray; the image is rotated if it fits better that way.
   Eigen::Vector2d paper_mm = {210, 297};
   /// Width, in mm, of the margin on every edge of the paper in which the printer cannot print.
   double printer_margin_mm = 0;
@@ -27,7 +27,8 @@ struct PageSettings {
 
 /// The colours of the output.
 struct ColourSettings {
-  bool cmyk = false;  ///< without a profile: plain CMYK, as in ink::make_separation; else sRGB
+  /// Without a profile, true selects plain CMYK (as in ink::make_separation), false selects sRGB.
+  bool cmyk = false;
   std::filesystem::path icc_profile;  ///< profile of the printer; selects CMYK or RGB
   /// The largest C + M + Y + K of a pixel, above 0 and at most 4; CMYK only.
   double ink_limit = 4;

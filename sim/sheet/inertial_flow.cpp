@@ -17,7 +17,8 @@ using velocity::VelocityField;
 using Velocities = std::vector<Vector2d>;
 
 constexpr double kLeastSpan_mm = 1e-6;
-constexpr int kMostShortened = 6;  ///< times that steps are shortened to a quarter
+/// Maximum number of times that steps are shortened to a quarter.
+constexpr int kMostShortened = 6;
 
 Velocities scaled(Velocities velocities, double by) {
   for (Vector2d& u : velocities) u *= by;

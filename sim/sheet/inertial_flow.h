@@ -20,8 +20,8 @@ struct InertialOptions {
   /// Maximum step of Algorithm 1, as a length of dip. The paper's step, 0.02 s at 5 mm/s, is 0.1
   /// mm. Shorter steps cost no more here. The viscosity does not depend on the step.
   double step_mm = 0.01;
-  /// At a waterline, iterations over thickness and velocity end when one moves the film by less
-  /// than this.
+  /// At a waterline, iterations over thickness and velocity end when an iteration moves the film by
+  /// less than this.
   double tolerance_mm = 0.001;
   int most_passes = 6;
 };

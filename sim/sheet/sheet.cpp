@@ -16,8 +16,8 @@ using Matrix = Eigen::SparseMatrix<double>;
 // The numbering of the unknowns already has low fill (FilmMesh::elimination_order).
 using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle. Quadrature at the midpoints of
-/// the edges is exact for quadratic functions.
+/// Returns the integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle. Quadrature at the
+/// midpoints of the edges is exact for quadratic functions.
 ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
   const double twice_area = twice_area_mm2(mesh, t);
   ElementMatrix K = ElementMatrix::Zero();
@@ -80,7 +80,7 @@ Sheet::State::State(const FilmMesh& film, double drag, std::vector<Eigen::Vector
   find_places();
 }
 
-/// Row of each of a triangle's twelve velocity components; -1: prescribed.
+/// Returns the matrix row of each of a triangle's twelve velocity components; -1: prescribed.
 std::array<int, 12> Sheet::State::rows_of(std::size_t triangle) const {
   std::array<int, 12> rows;
   const auto node = nodes_of(mesh, triangle);
@@ -173,8 +173,8 @@ bool Sheet::State::iterate() {
     residual -= step * image;
     const Eigen::VectorXd towards = factor.solve(residual);
     const double next = residual.dot(towards);
-    // Extrapolated from the convergence so far. The first few iterations show if a factor is too
-    // old.
+    // Number of iterations, extrapolated from the convergence so far. The first few iterations show
+    // if a factor is too old.
     const double expected = i * std::log(wanted / first) / std::log(next / first);
     const bool is_slow = i >= kFewIterations && !(next < first && expected < kMostIterations);
     if (!(next <= wanted) && (is_slow || i >= kMostIterations)) return false;
@@ -205,7 +205,9 @@ Result<std::vector<Eigen::Vector2d>> Sheet::solve(const std::vector<double>& thi
   if (s.unknowns.count == 0) return s.fixed;
   s.assemble(thickness_mm);
   if ((s.has_factor && s.iterate()) || s.factorize()) return s.velocities();
-  return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix for the sheet");
+  return fail(Code::kInternal,
+              "velocity: the film mesh gives a singular matrix for the sheet. "
+              "Please report this");
 }
 
 }  // namespace hydroprint::velocity

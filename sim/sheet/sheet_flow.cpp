@@ -19,8 +19,8 @@ using velocity::VelocityField;
 /// the results depend on it.
 constexpr std::size_t kWindow = 8;
 
-/// If a sweep reduces the change by less than this factor, the film does not converge. Film that
-/// tears or folds has no definite thickness.
+/// If a sweep moves the film by at least this fraction of the previous sweep's displacement, the
+/// film does not converge. Film that tears or folds has no definite thickness.
 constexpr double kSettling = 0.5;
 
 /// State of the sweeps over a window of waterlines. A waterline depends only on those before it, so
@@ -38,9 +38,9 @@ class Progress {
   [[nodiscard]] double sum_mm() const { return sum(moved_mm, moved_mm.size()); }
 
   enum class Next { kSweep, kSettled, kUnsettled };
-  /// Must be called after each sweep except the first. Assumes that the next sweep reduces the
-  /// displacement by the same factor as this one. The tolerance is divided evenly among the
-  /// waterlines.
+  /// Decides how to continue. Must be called after each sweep except the first. Assumes that the
+  /// next sweep reduces the displacement by the same factor as this one. The tolerance is divided
+  /// evenly among the waterlines.
   Next judge(double tolerance_mm) {
     const std::size_t count = moved_mm.size();
     const double before_mm = sum(before_mm_, count);
@@ -95,7 +95,7 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
     flow.sweeps = std::max(flow.sweeps, sweep);
     const double moved_mm = progress.sum_mm();
     if (sweep == 1) {
-      if (moved_mm < options.tolerance_mm) return {};  // later sweeps move it even less
+      if (moved_mm < options.tolerance_mm) return {};  // later sweeps move the film even less
     } else {
       const auto verdict = progress.judge(options.tolerance_mm);
       if (verdict == Progress::Next::kSettled) return {};

@@ -16,7 +16,7 @@ struct SheetOptions {
 
 struct SheetFlow {
   flow::DipField field;
-  int sweeps = 0;  ///< maximum over all groups of waterlines
+  int sweeps = 0;  ///< largest number of sweeps of any group of waterlines
   /// Displacement in the last sweep of groups of waterlines that did not converge, where film tears
   /// or folds (rms over the film of a waterline, summed over the dip).
   double unsettled_mm = 0;
@@ -24,9 +24,9 @@ struct SheetFlow {
 
 /// Computes the dip of a viscous sheet (section 4.3, quasistatic), in which velocity and thickness
 /// depend on each other. Solves a few waterlines at a time by waveform relaxation: each sweep
-/// computes the thickness at all of them from the previous velocities, then solves for new
-/// velocities in parallel. The sweeps converge to the solution of the coupled problem. Each reduces
-/// the error of the initial guess six- to tenfold.
+/// computes the thickness at all these waterlines from the previous velocities, then solves for new
+/// velocities in parallel. The sweeps converge to the solution of the coupled problem. Each sweep
+/// reduces the error of the initial guess six- to tenfold.
 /// @param first  any velocities on the dip's film meshes, with the right values at the edges;
 ///               Stokes flow is a good start
 [[nodiscard]] Result<SheetFlow> sheet_flow(flow::DipField first,

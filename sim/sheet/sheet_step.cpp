@@ -170,7 +170,9 @@ Result<VectorXd> Step::direction(const Velocities& velocities, Strain strain, do
     slope = along.dot(local.gradient);
     return along;
   }
-  return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix for a step");
+  return fail(Code::kInternal,
+              "velocity: the film mesh gives a singular matrix for a step. "
+              "Please report this");
 }
 
 Step::Velocities Step::moved(const Velocities& from, const VectorXd& along, double by) const {

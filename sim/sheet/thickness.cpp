@@ -17,8 +17,8 @@ constexpr double kMostAreaRatio = 5;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Twice the area of a triangle whose edges are parabolas through the corners and edge midpoints
-/// (opposite corners 0, 1, 2). At rest a triangle of film has curved edges.
+/// Returns twice the area of a triangle whose edges are parabolas through the corners and edge
+/// midpoints (opposite corners 0, 1, 2). At rest a triangle of film has curved edges.
 double twice_area(const std::array<Vector2d, 6>& node) {
   double area = cross(node[1] - node[0], node[2] - node[0]);
   for (int i = 0; i < 3; ++i) {
@@ -29,8 +29,8 @@ double twice_area(const std::array<Vector2d, 6>& node) {
   return area;
 }
 
-/// Mean thickness at rest over a triangle with curved edges. Large triangles are divided into
-/// quarters, which follow the curves better.
+/// Returns the mean thickness at rest over a triangle with curved edges. Large triangles are
+/// divided into quarters, which follow the curves better.
 double mean_thickness_mm(const std::array<Vector2d, 6>& node, double twice_area_mm2,
                          const RestThickness& rest_thickness) {
   constexpr double kLarge_mm2 = 8;

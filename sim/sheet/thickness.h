@@ -19,8 +19,8 @@ using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>&
 /// thus moves with the material and is never interpolated from mesh to mesh. Area ratios are
 /// limited to five, because film stretched further has torn, and film compressed further has
 /// wrinkled.
-/// @param known  rest positions of the film at an earlier waterline; nullptr: traced all the way
-///               back
+/// @param known  rest positions of the film at an earlier waterline; nullptr: the film is
+///               traced back to rest
 [[nodiscard]] std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
                                                const RestThickness& rest_thickness,
                                                const flow::RestMap* known = nullptr);

@@ -7,13 +7,14 @@
 namespace hydroprint::waterline {
 namespace {
 
-// An end is encoded as 2 * segment + (0 for its start, 1 for its end).
+// A segment's start is encoded as 2 * segment, its end as 2 * segment + 1.
 constexpr int kNone = -1;
 int segment_of(int end) { return end / 2; }
 int opposite(int end) { return end ^ 1; }
 bool is_start(int end) { return end % 2 == 0; }
 
-/// For each end, the end that it meets on the same mesh edge; kNone if the surface is open there.
+/// Returns for each end the end that it meets on the same mesh edge; kNone if the surface is open
+/// there.
 std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
   struct End {
     std::uint64_t edge;
@@ -90,7 +91,7 @@ Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link
 /// Appends a straight line to `target`, in pieces of at most 1 mm. The pull is interpolated
 /// linearly.
 void bridge(Contour& contour, const Segment& target) {
-  // Copies, because both may be elements of the growing contour.
+  // Copies, because the last segment and `target` may be elements of the growing contour.
   const Segment from = contour.back();
   const Segment to = target;
   const double length_mm = (to.a_mm - from.b_mm).norm();

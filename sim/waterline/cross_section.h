@@ -12,7 +12,7 @@ namespace hydroprint::waterline {
 struct Loop {
   std::vector<Eigen::Vector2d> points_mm;
   bool is_hole = false;
-  int parent = -1;  ///< the innermost loop around it; -1: none
+  int parent = -1;  ///< index of the innermost loop around this loop; -1: none
 };
 
 /// The union of all solid parts at one immersion, as simple closed curves that do not cross. The
@@ -27,7 +27,7 @@ using CrossSection = std::vector<Loop>;
 /// Returns the area of a closed curve, positive if counter-clockwise, mm2.
 [[nodiscard]] double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
-/// Tests a point against several closed curves with the even-odd rule.
+/// Returns true if the point lies inside the solid, by the even-odd rule.
 [[nodiscard]] bool is_inside(const CrossSection& section, const Eigen::Vector2d& point_mm);
 
 /// Returns the area of the intersection of two regions, each given by simple curves under the

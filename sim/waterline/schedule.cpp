@@ -16,11 +16,13 @@ namespace {
 constexpr int kBins = 8192;
 constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are not events
 constexpr double kLeastRim_mm = 5;       ///< shorter level edges are not events
-constexpr double kCreaseCosine = 0.8;    ///< corner normals with a smaller cosine make a crease
+/// Corner normals with a smaller cosine between them make a crease.
+constexpr double kCreaseCosine = 0.8;
 /// Factor by which steps are shortened at creases. Across an upright crease, the direction of eq.
 /// (1) jumps, and with it the film's velocity.
 constexpr double kCreaseSteps = 2;
-/// Below the first radius, steps are shortened. Radii below the second count as the second.
+/// Steps are shortened at radii of curvature below kBend_mm. Radii below kSharpest_mm count as
+/// kSharpest_mm.
 constexpr double kBend_mm = 20, kSharpest_mm = 1;
 
 struct Triangle {
@@ -41,24 +43,24 @@ Triangle measure(const Body& body, const Eigen::Vector3i& t) {
 struct Bins {
   std::vector<double> wetted_mm2;  ///< wetted surface, weighted
   std::vector<double> length_mm;   ///< mean waterline length
-  std::vector<double> smallness;   ///< mean smallness() over it, for the upward curvature
+  std::vector<double> smallness;   ///< mean smallness() on the waterline, by vertical curvature
   std::vector<char> has_crease;    ///< whether the waterline crosses creases
 };
 
-/// Returns the weight of surface at this angle. Near level faces the film hardly moves (u =
-/// tan(theta / 2)), so steps may be longer there.
+/// Returns the weight of surface at the angle theta with this cosine. Near level faces the film
+/// hardly moves (u = tan(theta / 2)), so steps may be longer there.
 double weight(double cosine) {
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
   return std::clamp(2 * tangent, 0.3, 1.0);
 }
 
 /// Returns the factor for the swept width where a radius is smaller than the one for which the
-/// steps are designed. It keeps the error in mm about the same (ScheduleOptions::swept_mm).
+/// steps are designed. The factor keeps the error in mm about the same (ScheduleOptions::swept_mm).
 double smallness(double radius_mm, double meant_for_mm) {
   return std::min(1.0, std::pow(radius_mm / meant_for_mm, 2.0 / 3));
 }
 
-/// Smallness of a whole body: that of a sphere with the same surface area.
+/// Returns the smallness of a whole body: that of a sphere with the same surface area.
 double smallness(const Body& body) {
   double area_mm2 = 0;
   for (const Eigen::Vector3i& t : body.triangles) area_mm2 += measure(body, t).area_mm2;
@@ -84,7 +86,7 @@ double bend_mm(const Body& body, std::size_t triangle) {
                                : std::numeric_limits<double>::infinity();
 }
 
-/// For each point, whether it lies on a crease.
+/// Returns for each point whether it lies on a crease.
 std::vector<char> crease_points(const Body& body) {
   std::vector<char> is_crease(body.points_mm.size(), 0), found(body.points_mm.size(), 0);
   std::vector<Eigen::Vector3d> first(body.points_mm.size());
@@ -150,7 +152,7 @@ Bins collect(const Body& body, double shelf_slope_rad) {
   return bins;
 }
 
-/// Levels at which the weights of heights within 1e-3 mm add up to at least `least`.
+/// Returns the levels at which the weights of heights within 1e-3 mm add up to at least `least`.
 std::vector<double> gather(std::vector<std::pair<double, double>> heights, double least) {
   std::sort(heights.begin(), heights.end());
   std::vector<double> levels;
@@ -172,7 +174,8 @@ std::vector<double> shelves(const Body& body, double shelf_slope_rad) {
   return gather(std::move(faces), kLeastShelf_mm2);
 }
 
-/// Heights of level edges that are creases. The waterline's speed jumps along the whole edge.
+/// Returns the heights of level edges that are creases. The waterline's speed jumps along the whole
+/// edge.
 std::vector<double> rims(const Body& body) {
   struct Side {
     Eigen::Vector3d normal;

@@ -19,8 +19,8 @@ struct ScheduleOptions {
   /// Faces within this angle of horizontal touch the water all at once. Waterlines are computed
   /// just before and just after them.
   double shelf_slope_rad = 2e-3;
-  /// Distance of the waterlines before and after an event: a shelf, a level edge or a change of
-  /// topology.
+  /// Distance from an event (a shelf, a level edge or a change of topology) to the waterlines just
+  /// before and after it.
   double event_gap_mm = 2e-3;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Points within this distance of the film's edge count as having reached it.
 constexpr double kEdgeMargin_mm = 0.05;
-constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours may come and go unresolved
+constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours do not cause more waterlines
 constexpr std::size_t kMostWaterlines = 3000;
 
 const Motion::Row* row_after(const Motion& motion, double immersion_mm) {
@@ -39,7 +39,8 @@ Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) 
   return {immersion_mm, unite(contours), {}, PullIndex(contours)};
 }
 
-/// Numbers of outer loops and of holes above a minimum size. They change when the topology changes.
+/// Returns the numbers of outer loops and of holes above a minimum size. They change when the
+/// topology changes.
 std::array<int, 2> signature(const Waterline& line) {
   std::array<int, 2> count = {0, 0};
   for (const Loop& loop : line.section) {

@@ -20,8 +20,8 @@ namespace hydroprint::waterline {
 struct Waterline {
   double immersion_mm = 0;
   CrossSection section;
-  /// For each loop of the section, whether there is film on its open side. There is none in holes
-  /// that film never entered, nor around loops within such holes.
+  /// For each loop of the section, whether there is film on its open side. There is no film in
+  /// holes that film never entered, nor around loops within such holes.
   std::vector<char> bounds_film;
   PullIndex pulls;
 };
@@ -44,7 +44,7 @@ struct Waterlines {
 
 /// Computes the waterlines of a dip at the scheduled immersions, and more closely where contours
 /// appear, vanish, split or merge (by bisection down to `event_gap_mm` * 5). Keeps track of which
-/// holes contain film; a hole that opens inside the cross-section contains none.
+/// holes contain film; a hole that opens inside the cross-section contains no film.
 /// @param outline  the floating film; the dip ends where the waterline reaches its edge
 /// @return kFailedPrecondition if the first contact misses the film
 [[nodiscard]] Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outline,

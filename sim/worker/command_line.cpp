@@ -32,7 +32,7 @@ int all_cores() {
 /// Flags that do not depend on the verb, as typed.
 struct RunFlags {
   RunOptions options;
-  std::optional<std::string> spec;    ///< file, or "-"
+  std::optional<std::string> spec;    ///< file name, or "-" for stdin
   std::optional<std::string> inputs;  ///< folder
 };
 
@@ -53,13 +53,13 @@ CommandLine refuse(RunOptions run, ExitStatus status, Error error) {
   return out;
 }
 
-/// A verb on the command line.
+/// Parses the command line of one verb.
 class VerbParser {
  public:
   VerbParser(CLI::App& program, const Verb& verb, RunFlags& run);
 
   [[nodiscard]] bool is_chosen() const { return app_.parsed(); }
-  /// After parsing.
+  /// Returns the outcome if the verb is chosen. Called after parsing.
   [[nodiscard]] CommandLine settle();
 
  private:
@@ -100,7 +100,7 @@ void VerbParser::add_run_flags() {
   RunOptions& options = run_.options;
   if (verb_.leaves_folder) {
     add_path(app_, "--out", options.out,
-             "Artifact folder to create; replaces that of an earlier run", "DIR");
+             "Artifact folder to create; replaces the folder of an earlier run", "DIR");
     app_.get_option("--out")->required();
     app_.add_flag("--json", options.json, "Print the summary or error as one JSON object");
     app_.add_option("--progress-fd", options.progress_fd,
@@ -133,7 +133,7 @@ std::string VerbParser::usage_problem() const {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it first";
   }
-  if (!run_.spec && run_.inputs) return "--inputs: needs --spec. Leave it out";
+  if (!run_.spec && run_.inputs) return "--inputs: needs --spec. Add --spec, or leave --inputs out";
   if (!run_.spec) return {};
   if (*run_.spec == "-" && !verb_.leaves_folder) {
     return "--spec: stdin is reserved for requests. Name a file";
@@ -174,8 +174,8 @@ int VerbParser::threads() const {
   return reflection.HasField(*spec_, &field) ? reflection.GetInt32(*spec_, &field) : all_cores();
 }
 
-/// Adds the flag or, for a spec, the field to the error's message. Without `--json` also adds the
-/// name of the spec file.
+/// Adds the flag to the error's message or, for a spec, the field and, without `--json`, the name
+/// of the spec file.
 Error VerbParser::located(Error error) const {
   const bool is_in_spec = run_.spec && error.metadata.contains("field");
   error = name_field(std::move(error), !run_.spec);
@@ -239,7 +239,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForAllHelp&) {
     return print(app.help());
   } catch (const CLI::ParseError& error) {
-    // The library stops at the first error, which may come before this flag.
+    // CLI11 stops at the first error, which may come before --json.
     run.options.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
     return refuse(run.options, ExitStatus::kUsage,
                   {Code::kInvalidArgument, std::string(error.what()) + ". See --help", {}, {}});

@@ -41,8 +41,8 @@ void keep_freed_memory() {
   ::mallopt(M_TRIM_THRESHOLD, kMany);
 }
 
-/// Reports the reason if memory runs out in code that must not throw and the caller reads JSON,
-/// then ends the program. Other exceptions abort the program as usual.
+/// With `--json`, reports OUT_OF_MEMORY on stdout and ends the program if memory runs out in code
+/// that must not throw. Other exceptions abort the program as usual.
 [[noreturn]] void on_terminate() {
   try {
     if (std::current_exception()) std::rethrow_exception(std::current_exception());

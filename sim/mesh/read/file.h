@@ -9,7 +9,8 @@
 namespace hydroprint::mesh {
 
 /// Returns the whole content of a regular file. Errors: kNotFound if it is missing;
-/// kInvalidArgument if it is empty, not a regular file, or larger than 4 GiB.
+/// kInvalidArgument if it is empty, not a regular file, or larger than 4 GiB; kPermissionDenied if
+/// it cannot be read.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
 /// Returns kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
@@ -20,7 +21,8 @@ namespace hydroprint::mesh {
 [[nodiscard]] tl::unexpected<Error> damaged(const std::filesystem::path& path,
                                             std::string_view place, std::string_view what);
 
-/// Refuses zero faces and more than kMaxFaces (read_model.h), before memory is allocated for them.
+/// Rejects a model with zero faces or more than kMaxFaces (read_model.h), before memory is
+/// allocated for them.
 [[nodiscard]] Status check_face_count(std::size_t faces, const std::filesystem::path& path);
 
 }  // namespace hydroprint::mesh

@@ -14,7 +14,7 @@ namespace hydroprint::mesh {
 /// A glTF accessor whose elements all lie within its buffer.
 class GltfAccessor {
  public:
-  /// @return nullopt if the accessor does not exist, is sparse, or exceeds its buffer
+  /// @return nullopt if the accessor does not exist, is empty or sparse, or exceeds its buffer
   [[nodiscard]] static std::optional<GltfAccessor> open(const tinygltf::Model& model, int index);
 
   [[nodiscard]] std::size_t size() const { return count_; }

@@ -77,7 +77,7 @@ Status check_extensions(const json& root, const std::filesystem::path& path) {
 Status check_gltf(std::string_view bytes, const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const std::string_view text, json_text(bytes, path));
   const auto root = parse_json(text, {text.size(), kMaxDepth});
-  if (!root) return bad_input(path, "", "its JSON: " + root.error().message);
+  if (!root) return bad_input(path, "", "JSON: " + root.error().message);
   if (!root->is_object()) return damaged(path, "", "is not valid glTF JSON");
   HP_RETURN_IF_ERROR(check_extensions(*root, path));
   return check_images(*root, path);

@@ -22,7 +22,8 @@ namespace hydroprint::mesh {
   return word;
 }
 
-/// Parses the whole word as a finite number, else nullopt. Values too small for a double become 0.
+/// Parses the whole word as a finite number; nullopt if it is not one. Values too small for a
+/// double become 0.
 [[nodiscard]] inline std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;

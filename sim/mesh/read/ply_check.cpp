@@ -177,7 +177,7 @@ class PlyChecker {
     return std::any_of(element.properties.begin(), element.properties.end(), predicate);
   }
 
-  /// Checks that the file is large enough for that many items, before any is read.
+  /// Checks that the file is large enough for the stated number of items, before any is read.
   Status check_size(const Element& element) {
     std::uint64_t least = 0;
     for (const auto& p : element.properties)

@@ -96,7 +96,7 @@ Result<Model> read_ply(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_face_count(facts.faces, path));
   HP_ASSIGN_OR_RETURN(Model model, import(bytes, path, "ply"));
   if (model.vertices.size() != facts.vertices)
-    return damaged(path, "", "the vertices could not all be read");
+    return damaged(path, "", "not all vertices could be read");
   if (facts.has_face_uvs) {
     model.corner_uvs.clear();
     model.warnings.push_back({"face_uvs_ignored",

@@ -19,7 +19,7 @@ namespace hydroprint::mesh {
 namespace {
 
 constexpr int kMaxDepth = 256;              // maximum depth of nodes
-constexpr std::size_t kMaxNodes = 100'000;  // visited
+constexpr std::size_t kMaxNodes = 100'000;  // maximum number of visited nodes
 
 /// Converts to sRGB, because glTF's colours are linear light.
 float to_srgb(double linear) {
@@ -132,7 +132,8 @@ class GltfImporter {
     const std::string place = fmt::format("node {}", index);
     const auto* node = entry(source_.nodes, index);
     if (node == nullptr) return bad(place, "does not exist");
-    if (depth > kMaxDepth || ++visited_ > kMaxNodes) return bad(place, "contains itself");
+    if (depth > kMaxDepth || ++visited_ > kMaxNodes)
+      return bad(place, "contains itself, or the scene has too many nodes");
     const Eigen::Affine3d transform = parent * local_transform(*node);
     if (node->mesh >= 0) {
       skinned_ += node->skin >= 0 ? 1 : 0;
@@ -185,7 +186,7 @@ class GltfImporter {
     return {};
   }
 
-  /// Triangles of the primitive, as indices of its own vertices.
+  /// Returns the triangles of the primitive, as indices of its own vertices.
   Result<std::vector<Eigen::Vector3i>> corner_indices(const tinygltf::Primitive& primitive,
                                                       int mode, const std::string& place) {
     std::vector<int> order;
@@ -342,8 +343,8 @@ class GltfImporter {
   std::size_t morphing_ = 0;
 };
 
-/// Restricts the importer to buffers below the model's folder. It is compiled without support for
-/// images; the texture loader opens the images that are needed.
+/// Restricts the importer to buffers below the model's folder. The importer is compiled without
+/// support for images; the texture loader opens the images that are needed.
 tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.user_data = &folder;

@@ -8,7 +8,7 @@
 
 namespace hydroprint::mesh {
 
-/// Models with more faces are rejected.
+/// Maximum number of faces; models with more are rejected.
 inline constexpr std::size_t kMaxFaces = 20'000'000;
 
 /// Reads OBJ (with MTL), STL, PLY, glTF or GLB; the file extension selects the format. Polygons are

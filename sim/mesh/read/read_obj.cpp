@@ -98,7 +98,7 @@ class ObjImporter {
     std::istream stream(&buffer);
     if (!tinyobj::LoadObjWithCallback(stream, callback, this) ||
         model_.vertices.size() != facts_.vertices || uvs_.size() != facts_.texture_coordinates)
-      return damaged(model_.path, "", "could not be read whole");
+      return damaged(model_.path, "", "could not be read completely");
     add_faces();
     finish();
     return std::move(model_);
@@ -242,11 +242,11 @@ class ObjImporter {
     if (facts_.vertex_colours.size() == model_.vertices.size())
       model_.vertex_colours = std::move(facts_.vertex_colours);
     else if (!facts_.vertex_colours.empty())
-      warn("vertex_colours_ignored", "only some vertices have colours: they are not used");
+      warn("vertex_colours_ignored", "only some vertices have colours: the colours are not used");
     const bool already_said = files_.empty() && !facts_.libraries.empty();
     if (!missing_.empty() && !already_said)
-      warn("material_missing",
-           "material \"" + *missing_.begin() + "\" is not in the material file: it has no colour");
+      warn("material_missing", "material \"" + *missing_.begin() +
+                                   "\" is not in the material file: its faces have no colour");
   }
 
   void add_default_material() {
@@ -273,7 +273,7 @@ class ObjImporter {
   std::vector<Transform> transforms_;  ///< texture transform of each material
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<int> corners_;
-  std::vector<int> corner_uvs_;  ///< -1: none
+  std::vector<int> corner_uvs_;  ///< index into uvs_ for each corner; -1: none
   std::vector<std::size_t> face_end_;
   std::vector<int> face_material_;
   int current_ = -1;

@@ -8,9 +8,9 @@
 
 namespace hydroprint::mesh {
 
-/// One reader for each format, each in a file of the same name. They check the bytes of the file
-/// and pass them to the importer. The returned model has only triangles, indices in range and
-/// finite coordinates in the file's units; it still contains faces without area.
+/// One reader for each format, each in a file of the same name. Each reader checks the bytes of the
+/// file and passes them to the importer. The returned model has only triangles, indices in range
+/// and finite coordinates in the file's units; it still contains faces without area.
 [[nodiscard]] Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
                                      const Context& context);
 [[nodiscard]] Result<Model> read_stl(std::string bytes, const std::filesystem::path& path,

@@ -94,7 +94,8 @@ class AsciiChecker {
   int corners_ = 0;
 };
 
-/// Whether the file is binary. Binary files may begin with "solid" too, so the length decides.
+/// Returns true if the file is binary. Binary files may begin with "solid" too, so the length
+/// decides.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{read_at<std::uint32_t>(bytes, 80)})

@@ -16,7 +16,7 @@ std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& points,
   const auto point = [&](std::size_t i) -> const Eigen::Vector3d& {
     return points[static_cast<std::size_t>(polygon[i % polygon.size()])];
   };
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // Newell's, twice the area long
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // Newell's; its length is twice the area
   for (std::size_t i = 0; i < polygon.size(); ++i)
     normal += (point(i) - point(0)).cross(point(i + 1) - point(0));
   const Eigen::Vector3d x = normal.unitOrthogonal();
@@ -97,7 +97,7 @@ class EarClipper {
   Triangles triangles_;
 };
 
-/// With more corners than this, ear clipping (quadratic at best) takes too long.
+/// Maximum number of corners for ear clipping, which takes at least quadratic time.
 constexpr std::size_t kMaxClipped = 4096;
 
 }  // namespace

@@ -16,7 +16,7 @@ double seconds_now() {
   return std::chrono::duration<double>(now).count();
 }
 
-/// Sends progress to a pipe, a terminal, both or neither.
+/// Sends progress to the pipe, if there is one, and to stderr, if it is a terminal.
 class ProgressSink {
  public:
   ProgressSink(int pipe, int stderr_fd) : pipe_(pipe), line_(stderr_fd) {}

@@ -30,8 +30,8 @@ class ArtifactTask : public Task {
   /// Returns the files that must be readable before the computation starts. report.json lists them.
   [[nodiscard]] virtual std::vector<InputPath> input_files() const = 0;
 
-  /// Computes, creates `folder` and writes the artifacts into it. Adds warnings, artifacts and
-  /// further inputs to the report.
+  /// Runs the computation, then creates `folder` and writes the artifacts into it. Adds warnings,
+  /// artifacts and further inputs to the report.
   [[nodiscard]] virtual Status compute(OutFolder& folder, Report& report,
                                        const Context& context) = 0;
 

@@ -16,9 +16,9 @@ namespace hydroprint::worker {
 /// A file to write: its name, and a function that writes it to a path.
 using FileTask = std::pair<std::string, std::function<Status(const std::filesystem::path&)>>;
 
-/// Writes surface_map.ply. The dip must outlive the task.
+/// Returns a task that writes surface_map.ply. The dip must outlive the task.
 [[nodiscard]] FileTask surface_map_file(const pipeline::Dip& dip);
-/// Writes a PNG. The image and the context must outlive the task.
+/// Returns a task that writes a PNG. The image and the context must outlive the task.
 [[nodiscard]] FileTask png_file(const std::string& name, const image::RgbImage& image, double dpi,
                                 const Context& context);
 

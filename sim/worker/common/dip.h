@@ -11,7 +11,7 @@
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// An object that is dipped through a film.
+/// Options of the dip of an object through a film.
 struct DipOptions {
   ObjectOptions object;
   std::filesystem::path profile;   ///< empty: the defaults of film::Profile
@@ -32,8 +32,8 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 /// Reads the film and its profile.
 [[nodiscard]] Result<pipeline::DipOptions> read_dip(const DipOptions& options);
 
-/// Same as read_dip(). Also reads the ink on the film if `ink_image` is not empty, and adds the
-/// profile's own files to the report's inputs.
+/// Same as read_dip(). Also reads the ink on the film if `ink_image` is not empty, and adds the ICC
+/// profile that the film profile names to the report's inputs.
 [[nodiscard]] Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
                                                           const std::filesystem::path& ink_image,
                                                           Report& report, const Context& context);
@@ -46,7 +46,7 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 
 [[nodiscard]] Json profile_json(const film::Profile& profile);
 
-/// Returns {p50, p95, max}.
+/// Returns {p50, p95, max} of the stretch.
 [[nodiscard]] Json stretch_json(const pipeline::DipFigures& figures);
 
 }  // namespace hydroprint::worker

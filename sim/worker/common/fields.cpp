@@ -29,7 +29,7 @@ Status check_range(const FieldDescriptor& field, double value, Code code) {
 Status check_choice(const FieldDescriptor& field, int number) {
   if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
   return fail_field(Code::kInvalidArgument, field.name(),
-                    fmt::format("{} is unknown. Use one of the names", number));
+                    fmt::format("{} is unknown. Use the name of a choice, as in --help", number));
 }
 
 Status check_field(const Message& spec, const FieldDescriptor& field) {

@@ -130,7 +130,7 @@ Json DipFindings::figures() const {
 }
 
 std::string DipFindings::summary(const Report& report, const std::filesystem::path& dir) const {
-  return fmt::format("{}film reaches {} of the surface, stretched at most {} times; {:.1f} s\n",
+  return fmt::format("{}film reaches {} of the surface; maximum stretch {}; {:.1f} s\n",
                      artifacts_line(dir, report), percent(figures_.coverage),
                      three_digits(figures_.stretch_max), report.total_s);
 }

@@ -20,7 +20,7 @@ enum ArtifactSet : int;
 // Options and results that simulate and predict share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// A dip whose film carries an image.
+/// Options of a dip whose film carries an image.
 struct FlowOptions {
   DipOptions dip;
   double dpi = 300;
@@ -36,7 +36,8 @@ struct FlowOptions {
   [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
 };
 
-/// Sets the options that are choices. Fails with fail_field() if they exclude each other.
+/// Sets the film model, the inertia and the artifact set. Fails with fail_field() if the model does
+/// not support inertia.
 [[nodiscard]] Status choose(FlowOptions& options, v1::Model model, bool inertia,
                             v1::ArtifactSet artifacts);
 
@@ -79,7 +80,7 @@ class DipFindings {
   [[nodiscard]] Json parameters(const FlowOptions& options, std::array<int, 2> film_image_px,
                                 int threads) const;
 
-  pipeline::DipOptions dip_;  ///< film and profile
+  pipeline::DipOptions dip_;  ///< only the film and its profile
   Pose X_FO_ = Pose::Identity();
   MeshSize mesh_, surface_;
   bool closed_ = false;

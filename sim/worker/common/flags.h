@@ -20,10 +20,10 @@ namespace hydroprint::worker {
 /// `ink_passes`.
 class Flags {
  public:
-  /// Both must stay valid while the command line is parsed.
+  /// `app` and `spec` must stay valid while the command line is parsed.
   Flags(CLI::App& app, google::protobuf::Message& spec) : app_(app), spec_(spec) {}
 
-  /// Adds the flags of all fields, or of the named ones; except threads, lists of files, and
+  /// Adds the flags of all fields, or of those named in `only`. Skips threads, lists of files, and
   /// references that only a daemon resolves.
   void add_fields(const std::vector<std::string>& only = {});
   /// Makes the flag of a field required.
@@ -31,7 +31,7 @@ class Flags {
   /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
   void require_folders(const std::string& field, const std::string& file);
 
-  /// Called after parsing: reads the pose from the file of `--pose`, if the flag was given. Returns
+  /// Reads the pose from the file of `--pose`, if the flag was given. Called after parsing. Returns
   /// the errors of read_pose_file().
   [[nodiscard]] Status read_pose();
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }

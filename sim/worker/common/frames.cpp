@@ -38,12 +38,13 @@ Result<std::vector<std::filesystem::path>> frames_folders(
     if (name.ends_with(suffix)) folders.emplace_back(name.substr(0, name.size() - suffix.size()));
   }
   if (folders.empty()) {
-    return fail_field(Code::kInvalidArgument, "frames",
-                      "no FOLDER/frames.json among them. Name the files of hydroprint-capture");
+    return fail_field(
+        Code::kInvalidArgument, "frames",
+        "none of the files is FOLDER/frames.json. Name the files that hydroprint-capture wrote");
   }
   if (most > 0 && folders.size() > most) {
     return fail_field(Code::kInvalidArgument, "frames",
-                      fmt::format("{} folders. Give at most {}", folders.size(), most));
+                      fmt::format("{} folders are given. Use at most {}", folders.size(), most));
   }
   return folders;
 }

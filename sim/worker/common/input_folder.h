@@ -24,8 +24,8 @@ class InputFolder {
   /// Returns the path of a required file, or fail_field() if the spec does not name one.
   [[nodiscard]] Result<std::filesystem::path> required(const std::string& field,
                                                        const v1::InputFile& file) const;
-  /// Returns a film for film::parse_outline(), or fail_field() if it is not valid. Does not open
-  /// the file of a polygon.
+  /// Returns `text` for film::parse_outline(), with the path of a polygon's file resolved. Returns
+  /// fail_field() if `text` is not valid. Does not open the polygon's file.
   [[nodiscard]] Result<std::string> film(const std::string& text) const;
 
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }

@@ -13,14 +13,14 @@ constexpr double kMaxOffset_mm = 1e4;
 /// Describes why `row` cannot follow the rows of `motion`; empty if it can.
 std::string objection(const waterline::Motion& motion, const waterline::Motion::Row& row) {
   if (row.offset_mm.cwiseAbs().maxCoeff() > kMaxOffset_mm || row.immersion_mm > kMaxOffset_mm) {
-    return "farther than 1e4 mm from the start. Is it in mm?";
+    return "more than 10 m from the start. Write the positions in mm";
   }
   if (motion.rows.empty()) return {};
   if (row.time_s <= motion.rows.back().time_s) {
     return "t_s does not increase. Sort the rows by time and remove repeated ones";
   }
   if (row.immersion_mm < motion.rows.back().immersion_mm) {
-    return "z_mm rises. Keep only the rows of the way down";
+    return "z_mm rises. Keep only the rows of the descent";
   }
   return {};
 }

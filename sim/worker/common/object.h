@@ -17,7 +17,7 @@ class Pose;
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// An object above a film.
+/// Options of an object and of the film below it.
 struct ObjectOptions {
   std::filesystem::path mesh;
   double scale = 1;                 ///< millimetres per model unit
@@ -26,7 +26,8 @@ struct ObjectOptions {
   std::string film = "A4";          ///< name for film::parse_outline()
 };
 
-/// The input file of a film for report.json: that of a polygon, otherwise an empty path.
+/// Returns the input file of a film for report.json: the file of a polygon; for other films an
+/// empty path.
 [[nodiscard]] InputPath film_file(const std::string& film);
 
 /// Reads the field `pose`. Returns fail_field() if it is not a rigid transform.

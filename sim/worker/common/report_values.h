@@ -25,7 +25,6 @@ namespace hydroprint::worker {
 /// Returns [{code, message, where}].
 [[nodiscard]] Json warnings_json(const Warnings& warnings);
 
-/// Size of a mesh, as in its file.
 struct MeshSize {
   std::size_t vertices = 0, triangles = 0;
 };

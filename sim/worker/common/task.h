@@ -33,11 +33,11 @@ class Task {
   /// Returns the main input for error messages: a file name, or the verb's name if it reads no
   /// file.
   [[nodiscard]] virtual std::string subject() const = 0;
-  /// Advice if memory runs out: "Use ... or more memory".
+  /// Returns what to use if memory runs out, for the message "Use ... or more memory".
   [[nodiscard]] virtual std::string memory_tip() const { return "a smaller model"; }
 
-  /// Runs the task to its end. Reports progress to `progress_fd` of the options and, if it is a
-  /// terminal, to `stderr_fd`. On failure no files remain.
+  /// Runs the task to its end. Reports progress to `progress_fd` of the options and, if `stderr_fd`
+  /// is a terminal, also there. On failure no files remain.
   [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
                                              int stderr_fd) = 0;
 };

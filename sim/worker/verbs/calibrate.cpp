@@ -44,7 +44,7 @@ struct CalibrateOptions {
   std::filesystem::path frames;
   std::filesystem::path layout;
   std::filesystem::path camera;      ///< empty: the driver's lens
-  std::optional<double> gripper_mm;  ///< nullopt: not in view
+  std::optional<double> gripper_mm;  ///< height of its lower end above z = 0; nullopt: not in view
 };
 
 void add_flags(Flags& flags) {
@@ -64,7 +64,7 @@ Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const Input
   return out;
 }
 
-/// Returns the object coloured by registration error.
+/// Returns a picture of the object, coloured by the uncertainty of the surface's position.
 Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
                                       const std::vector<double>& error_mm, const Context& context) {
   std::vector<flow::MappedTriangle> whole(surface.triangles.size());
@@ -128,7 +128,7 @@ Json scan_json(const registration::ObjectPose& object) {
           {"hidden_share", object.sight.before + object.sight.without_depth}};
 }
 
-/// Content of calibration.json.
+/// Returns the content of calibration.json.
 /// @param lowest_mm  z of the object's lowest point (F)
 Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
   Json out = {{"pose", pose_json(c.object.X_FO)},

@@ -4,8 +4,8 @@
 
 namespace hydroprint::worker {
 
-/// Finds the pose of the object in the film frame: calibration.json, pose.json, alignment.png and
-/// error.png.
+/// Finds the pose of the object in the film frame. Writes calibration.json, pose.json,
+/// alignment.png and error.png.
 [[nodiscard]] Verb calibrate_verb();
 
 }  // namespace hydroprint::worker

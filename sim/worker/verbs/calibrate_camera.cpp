@@ -16,9 +16,9 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(Record twelve views of the calibration board (sim/registration), each with 1 s of frames. Hold the board still, wholly
-in view, and at least 30 mm in front of the background. Tilt it by 30 degrees in each direction, hold it near and far, and
-move it to the corners of the image.
+    R"(Record twelve views of the calibration board (see sim/registration/README.md), each with 1 s of frames. Hold the board
+still, fully in view, and at least 30 mm in front of the background. Tilt it by 30 degrees in each direction, hold it near
+and far, and move it to the corners of the image.
 
 Example:
   hydroprint-worker calibrate-camera --frames view1 view2 view3 view4 view5 view6 --out camera

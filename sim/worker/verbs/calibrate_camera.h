@@ -4,7 +4,7 @@
 
 namespace hydroprint::worker {
 
-/// Finds the lens and the depth scale of a camera: camera.json.
+/// Finds the lens and the depth scale of a camera. Writes camera.json.
 [[nodiscard]] Verb calibrate_camera_verb();
 
 }  // namespace hydroprint::worker

@@ -4,7 +4,8 @@
 
 namespace hydroprint::worker {
 
-/// Fits a film profile to measured points: film_profile.toml, residuals.csv and residuals.png.
+/// Fits a film profile to measured points. Writes film_profile.toml, residuals.csv and
+/// residuals.png.
 [[nodiscard]] Verb fit_verb();
 
 }  // namespace hydroprint::worker

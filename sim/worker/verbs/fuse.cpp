@@ -22,8 +22,9 @@ namespace {
 
 constexpr const char* kExamples =
     R"(scan.ply: the surface that a camera saw while it was swept by hand, from a volume of signed distances, in mm. With
---layout it is in the film frame and cut off outside the bars; otherwise it is in the camera's frame at its first depth
-frame. camera_path.csv: the camera's path. Begin with the markers in view, keep 0.6 to 1.2 m away, and sweep for 10 s.
+--layout the surface is in the film frame and is cut off outside the rig's bars; otherwise it is in the camera's frame at
+the first depth frame. camera_path.csv: the camera's path. Begin with the markers in view, keep 0.6 to 1.2 m away, and
+sweep for 10 s.
 
 Examples:
   hydroprint-capture --seconds 10 --record sweep.oni --out sweep
@@ -170,7 +171,7 @@ Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) 
 
 std::string Fuse::summary(const Report& report, const std::filesystem::path& dir) const {
   return fmt::format(
-      "{}{} frames, {} of them not registered; after smoothing they lie {:.2f} mm (rms) from the "
+      "{}{} frames, {} of them not registered; residual of the smoothed frames {:.2f} mm (rms); "
       "surface of {} triangles\n",
       artifacts_line(dir, report), swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
       swept_.mesh.triangles.size());

@@ -4,7 +4,7 @@
 
 namespace hydroprint::worker {
 
-/// Fuses the frames of a camera swept by hand: scan.ply, scan.png and camera_path.csv.
+/// Fuses the frames of a camera swept by hand. Writes scan.ply, scan.png and camera_path.csv.
 [[nodiscard]] Verb fuse_verb();
 
 }  // namespace hydroprint::worker

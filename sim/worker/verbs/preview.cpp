@@ -89,13 +89,14 @@ Status answer_model(const mesh::Model& model) {
                 bytes);
 }
 
-/// Returns a number within bounds.
+/// Returns `value` if it is a number from `least` to `most`; otherwise an error that names `key`.
 Result<double> read_number(const nlohmann::json& value, const std::string& key, double least,
                            double most) {
   const double number =
       value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (number >= least && number <= most) return number;
-  return fail(Code::kInvalidArgument, key + ": not a number, or out of range. Use mm or mm/s");
+  return fail(Code::kInvalidArgument,
+              key + ": not a number, or out of range. Give it in mm or mm/s");
 }
 
 struct Request {

@@ -18,7 +18,7 @@ namespace {
 
 // The interval at which next() checks whether to end.
 constexpr std::chrono::milliseconds kLook{100};
-// If a client writes faster than it reads, its oldest lines are dropped.
+// Maximum number of lines that wait for next(). If more arrive, the oldest are dropped.
 constexpr std::size_t kMostWaiting = 64;
 
 }  // namespace
@@ -28,7 +28,7 @@ struct PreviewRequests::Shared {
   std::condition_variable changed;
   std::vector<std::string> lines;
   bool closed = false;
-  std::atomic<bool> newer = false;  // `lines` is not empty
+  std::atomic<bool> newer = false;  // true if `lines` is not empty
 
   void add(std::string line) {
     const std::lock_guard lock(mutex);

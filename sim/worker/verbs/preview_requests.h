@@ -13,7 +13,8 @@ namespace hydroprint::worker {
 /// because the user wants to see the object's current pose.
 class PreviewRequests {
  public:
-  /// A longer line is replaced with an empty one, which is not a valid request.
+  /// Maximum length of a line. A longer line is replaced with an empty one, which is not a valid
+  /// request.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 
   /// Starts a thread that reads `fd` to its end. The thread is never joined. The caller owns `fd`

@@ -25,8 +25,8 @@ namespace {
 
 constexpr const char* kExamples =
     R"(print.pdf: pages of the paper's size, with registration marks, rulers, an arrow and a line of text outside the film.
-print.png and print.tif: only the film image, one file per sheet if it takes several. Print them at 100 %, without
-fitting to the page. The same options give the same files, bit for bit.
+print.png and print.tif: only the film image, one file per sheet if there are several sheets. Print them at 100 %,
+without fitting to the page. The same options give the same files, bit for bit.
 
 Examples:
   hydroprint-worker print-image --film-image film.png --out paper

@@ -70,7 +70,7 @@ class Template final : public ArtifactTask {
     parameters.update({{"scale", options_.object.scale}, {"pose", pose_json(placement_.X_FO)}});
     return {{"parameters", parameters}, {"mesh", mesh_json(mesh_)}, {"placement", figures()}};
   }
-  /// Where the object first meets the water, in F.
+  /// Returns where the object first meets the water, in frame F.
   [[nodiscard]] Json figures() const override {
     return {{"contact_mm", pair_of(placement_.contact_mm)},
             {"contact_size_mm", pair_of(placement_.contact_size_mm)},

@@ -75,7 +75,7 @@ class Validate final : public ArtifactTask {
 
   [[nodiscard]] std::string subject() const override { return "validate"; }
   [[nodiscard]] std::string memory_tip() const override { return "--quick"; }
-  /// The selected experiments, then writing.
+  /// Returns a stage for each selected experiment, then `writing`.
   [[nodiscard]] std::vector<Stage> stages() const override;
 
  protected:
@@ -94,7 +94,7 @@ class Validate final : public ArtifactTask {
   [[nodiscard]] Json figures() const override {
     return {{"passed", validation_.passed}, {"failed", validation_.failed}};
   }
-  /// One line for the whole run, and one for each figure beyond its limit.
+  /// Returns one line for the whole run, and one for each figure beyond its limit.
   [[nodiscard]] std::string summary(const Report& report,
                                     const std::filesystem::path& dir) const override;
 

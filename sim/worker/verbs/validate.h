@@ -4,7 +4,7 @@
 
 namespace hydroprint::worker {
 
-/// Runs the paper's experiments in silico: report.html and its pictures.
+/// Runs the paper's experiments in silico. Writes report.html and its pictures.
 [[nodiscard]] Verb validate_verb();
 
 }  // namespace hydroprint::worker

@@ -53,7 +53,8 @@ TEST(Parameters, NamesMatchTheCommandLine) {
       (std::vector<Parameter>{Parameter::kDrag, Parameter::kSwellingX, Parameter::kSwellingY}));
   const auto bad = parse_parameters({"drag", "young_modulus"});
   ASSERT_FALSE(bad);
-  EXPECT_EQ(bad.error().message, "'young_modulus' cannot be fitted. Use ink_ratio, drag, swelling");
+  EXPECT_EQ(bad.error().message,
+            "'young_modulus' cannot be fitted. Use ink_ratio, drag or swelling");
 }
 
 }  // namespace

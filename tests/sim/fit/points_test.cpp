@@ -34,7 +34,8 @@ TEST(Points, BadFilesAreRefusedByLineWithARemedy) {
       {kHeader + "1,2,3,4,5\n1,2,nan,4,5\n",
        "line 3: not 5 finite numbers: X_mm is 'nan'. " + write},
       {kHeader + "1,2,3,four,5\n", "line 2: not 5 finite numbers: Y_mm is 'four'. " + write},
-      {kHeader + "1,2,3,4,20000\n", "line 2: beyond 1e4 mm. Is it in mm?"},
+      {kHeader + "1,2,3,4,20000\n",
+       "line 2: a coordinate is beyond 1e4 mm. Write coordinates in mm"},
   };
   for (const auto& [csv, text] : cases) {
     const auto read = points(csv);
