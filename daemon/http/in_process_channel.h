@@ -37,7 +37,7 @@ class Call {
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Reads the next message; nullopt after the last.
+  /// Reads the next message. The callback receives nullopt after the last message.
   virtual void read(std::function<void(std::optional<std::string>)> done) = 0;
   /// Writes a message. The callback receives true when the other side has accepted it, and false if
   /// the call has ended.
@@ -69,7 +69,7 @@ class InProcessChannel {
                               std::function<void(Reply)> done) const;
   [[nodiscard]] std::unique_ptr<Stream> stream(const std::string& method,
                                                const Metadata& metadata) const;
-  /// Waits for all calls to end; no callback follows. Returns false on timeout.
+  /// Waits until all calls have ended, after which no callback is called. Returns false on timeout.
   [[nodiscard]] bool wait_for_none(std::chrono::milliseconds patience) const;
 
  private:
