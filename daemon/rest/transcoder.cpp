@@ -105,7 +105,7 @@ struct Transcoder::Impl {
   std::vector<Route> routes;
   std::map<std::string, const pb::MethodDescriptor*, std::less<>> methods;
 
-  // All routes that match the path; an empty list is not an error.
+  // Returns all routes that match the path; the list may be empty.
   [[nodiscard]] Result<std::vector<Match>> matches(std::string_view path) const {
     HP_ASSIGN_OR_RETURN(const std::optional<Path> parts, split_path(path));
     std::vector<Match> found;
