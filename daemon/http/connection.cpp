@@ -40,9 +40,11 @@ Response refused_head(Exchange::BeginResult begin_result) {
                       {}},
                      408);
     default:
-      return refusal(
-          {Code::kInvalidArgument, "this is not an HTTP/1.1 request", "REQUEST_MALFORMED", {}},
-          400);
+      return refusal({Code::kInvalidArgument,
+                      "the request line or header is not valid HTTP/1.1; correct the request",
+                      "REQUEST_MALFORMED",
+                      {}},
+                     400);
   }
 }
 

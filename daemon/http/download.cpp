@@ -99,7 +99,7 @@ class Download {
   }
 
  private:
-  // Reads the next piece; nullopt if the call has ended.
+  // Reads the next piece; nullopt if the call has ended or the store does not answer in time.
   Task<std::optional<std::string>> next() {
     AsyncValue<std::optional<std::string>> async_value(exchange_.shared_socket());
     stream_->read(async_value.receiver());

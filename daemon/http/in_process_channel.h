@@ -42,7 +42,7 @@ class Stream {
   /// Writes a message. The callback receives true when the other side has accepted it, and false if
   /// the call has ended.
   virtual void write(std::string message, bool is_last, std::function<void(bool)> done) = 0;
-  /// Half-closes the stream; not needed after the last message.
+  /// Half-closes the stream; not needed after a write() with is_last.
   virtual void end_writing() = 0;
   virtual void cancel() = 0;
   /// Reads the final status. No reads or writes may follow. Unread messages are read and dropped,

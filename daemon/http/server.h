@@ -37,7 +37,8 @@ struct Health {
   std::string json;
 };
 
-/// Determines the caller of an API method and checks its role (RoleCheck::admit). Never waits.
+/// Determines the caller of an API method and checks the caller's role (RoleCheck::admit). Never
+/// waits.
 using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
                                                                 const auth::Credentials&)>;
 

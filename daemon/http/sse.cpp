@@ -36,7 +36,7 @@ class EventStream {
       socket->ring();
     });
     for (bool is_open = true; is_open;) is_open = co_await forward_event();
-    // Unwatches before end(), since unwatch() must not be called during a write.
+    // No write is in progress here, as unwatch() requires.
     exchange_.socket().unwatch();
     if (*gone_) exchange_.break_off();
   }

@@ -68,8 +68,9 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
   HP_RETURN_IF_ERROR(read_json(body, request));
   for (const FieldPath& path : route.path_fields) {
     if (!has_value(request, path)) continue;
-    auto error = fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path",
-                      "JSON_INVALID");
+    auto error =
+        fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path; leave it out",
+             "JSON_INVALID");
     error.value().metadata["field"] = path_text(path);
     return error;
   }

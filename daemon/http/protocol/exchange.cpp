@@ -102,9 +102,11 @@ Task<Result<std::string>> Exchange::read_body_piece() {
     if (outcome == RequestParser::Outcome::kProgress) continue;
     if (outcome != RequestParser::Outcome::kNeedsMore || buffered_.size() > kMostUnparsed_bytes) {
       break_off();
-      co_return fail(Code::kInvalidArgument,
-                     "the request body is not valid HTTP framing; send it again",
-                     "REQUEST_MALFORMED");
+      co_return fail(
+          Code::kInvalidArgument,
+          "the framing of the request body is not valid HTTP/1.1; check Content-Length or "
+          "the chunk sizes",
+          "REQUEST_MALFORMED");
     }
     const Socket::ReadResult got = co_await read_more(limits_.body_time);
     if (got.bytes > 0) continue;

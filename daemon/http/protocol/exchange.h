@@ -47,7 +47,7 @@ class Exchange {
   /// Reads the rest of the request body if it is short. Returns whether another request may follow.
   [[nodiscard]] Task<bool> end_request();
 
-  /// Returns the status of the response; 0 if none was begun.
+  /// Returns the HTTP status of the response; 0 if no response has begun.
   [[nodiscard]] int status() const { return status_; }
   [[nodiscard]] Socket& socket() { return *socket_; }
   [[nodiscard]] const std::shared_ptr<Socket>& shared_socket() const { return socket_; }

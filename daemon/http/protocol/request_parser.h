@@ -22,7 +22,7 @@ enum class BodyFraming {
 struct Head {
   std::string method;
   std::string target;  ///< as received: "/v1/jobs?pageSize=3"
-  int version = 11;    ///< 10 or 11
+  int version = 11;    ///< HTTP version: 10 for HTTP/1.0, 11 for HTTP/1.1
   HeaderFields fields;
   bool keeps_alive = true;
   BodyFraming framing = BodyFraming::kLength;

@@ -28,9 +28,9 @@ TEST(Body, HoldsAllFieldsOneFieldOrNone) {
 
 TEST(Body, FieldsOfPathOrQueryAreRefused) {
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"inner":{"text":"x"}})"),
-            "JSON_INVALID inner.text: is already set by the path");
+            "JSON_INVALID inner.text: is already set by the path; leave it out");
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"small":6})"),
-            "JSON_INVALID small: is already set by the path");
+            "JSON_INVALID small: is already set by the path; leave it out");
   for (const char* text : {R"({"text":"a"})", "x", "[]", "{}{}", "null"}) {
     EXPECT_EQ(read("GET", "/r/query", text).substr(0, 45),
               "JSON_INVALID request body: must be empty; put")

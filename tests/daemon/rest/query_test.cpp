@@ -117,9 +117,9 @@ TEST(Query, InvalidUrlsAreRefused) {
 
 TEST(Query, FieldsOfPathOrBodyAreRefused) {
   EXPECT_EQ(read("GET", "/r/single/a?text=a"),
-            "PARAMETER_INVALID text: is already set by the path");
+            "PARAMETER_INVALID text: is already set by the path; leave it out");
   EXPECT_EQ(read("PUT", "/r/all/a/1?inner.text=a"),
-            "PARAMETER_INVALID inner.text: is already set by the path");
+            "PARAMETER_INVALID inner.text: is already set by the path; leave it out");
   EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?inner.text=a"),
             "PARAMETER_INVALID inner.text: belongs in the body");
