@@ -17,8 +17,8 @@ namespace hydroprint::daemon {
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
 
-/// Returns a function that records calls that an endpoint rejects because of the caller's role. The
-/// same calls are skipped as above. The function does not wait; `audit` must outlive it.
+/// Returns a function that records calls that an endpoint rejects because of the caller's role. It
+/// skips the same calls as make_audit_interceptor(), and does not wait; `audit` must outlive it.
 [[nodiscard]] OnRefusal make_refusal_recorder(auth::AuditLog& audit);
 
 }  // namespace hydroprint::daemon

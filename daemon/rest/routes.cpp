@@ -21,8 +21,8 @@ tl::unexpected<Error> refuse(const pb::MethodDescriptor& method, const std::stri
   return fail(Code::kInternal, method.full_name() + ", google.api.http: " + what);
 }
 
-// Returns the HTTP method and the path template of a rule; the method is empty if the rule has
-// none.
+// Returns the HTTP method and the path template of a rule; the HTTP method is empty if the
+// rule has none.
 std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   switch (rule.pattern_case()) {
     case HttpRule::kGet:

@@ -13,7 +13,7 @@ struct Limits {
   std::chrono::milliseconds header_time{10'000};
   std::chrono::milliseconds idle_time{60'000};   ///< longest time between two requests
   std::chrono::milliseconds body_time{30'000};   ///< longest time between two pieces of a body
-  std::chrono::milliseconds write_time{30'000};  ///< timeout for sending 64 KiB
+  std::chrono::milliseconds write_time{30'000};  ///< longest time for sending 64 KiB
   std::chrono::milliseconds call_time{30'000};   ///< timeout of a unary call
   std::chrono::milliseconds ping_time{15'000};   ///< idle time before a stream's keep-alive message
   int connections = 2000;
