@@ -11,7 +11,8 @@ class Message;
 namespace hydroprint {
 
 /// Writes a message as JSON on one line, for REST and for `hydroprint --json`: field names in
-/// camelCase, all fields without presence, enums by name, int64 as strings, times in RFC 3339.
+/// camelCase, fields without presence even if they have the default value, enums by name, int64 as
+/// strings, times in RFC 3339.
 /// Returns kInternal for a message without a JSON form, such as an Any of unknown type.
 [[nodiscard]] Result<std::string> write_json(const google::protobuf::Message& message);
 

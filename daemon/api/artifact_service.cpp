@@ -75,11 +75,11 @@ class ArtifactService final : public v1::ArtifactService::Service {
     HP_RETURN_IF_ERROR(check_sight(context, name.first));
     HP_ASSIGN_OR_RETURN(const auto artifact, backend_.jobs.artifact(name.first, name.second));
     if (request.offset() < 0 || request.offset() > artifact.size_bytes) {
-      auto error = fail(
-          Code::kOutOfRange,
-          fmt::format("offset: beyond the {} bytes of the artifact; start at or before its end",
-                      artifact.size_bytes),
-          "OFFSET_MISMATCH");
+      auto error =
+          fail(Code::kOutOfRange,
+               fmt::format("offset: must be from 0 to {}, the size of the artifact in bytes",
+                           artifact.size_bytes),
+               "OFFSET_MISMATCH");
       error.value().metadata["expected_offset"] = std::to_string(artifact.size_bytes);
       return error;
     }

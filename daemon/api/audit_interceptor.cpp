@@ -27,7 +27,7 @@ using grpc::experimental::ServerRpcInfo;
 constexpr std::int64_t kRecordInterval_ms = 60'000;
 constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
-constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
+constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // changes nothing
 
 // Shortens "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
 std::string short_name(const std::string& method) {
@@ -44,7 +44,7 @@ std::string text_field(const Message& message, const char* name) {
   return one_line(message.GetReflection()->GetString(message, field).substr(0, kLongestDetail));
 }
 
-// Returns the object of a message: "jobs/7".
+// Returns the name of the resource that a message concerns: "jobs/7"; empty if it has none.
 std::string object_of(const Message& message) {
   for (const char* const name : {"name", "parent"}) {
     if (std::string text = text_field(message, name); !text.empty()) return text;
@@ -69,8 +69,8 @@ std::string plain_text(const Message& message, const FieldDescriptor& field) {
   }
 }
 
-// Returns the numbers, enums and reasons in a request. Other text is omitted, because it may be
-// secret.
+// Returns the reason in a request and its fields of type double, bool and enum. Other text is
+// omitted, because it may be secret.
 std::string detail_of(const Message& message) {
   std::string out = text_field(message, "reason");
   std::vector<const FieldDescriptor*> set;
@@ -101,7 +101,7 @@ std::string outcome_of(const grpc::Status& status) {
   return "UNKNOWN";
 }
 
-/// Whether a frequent call is due to be recorded.
+/// Decides whether a frequent call is recorded: at most once per kRecordInterval_ms for each key.
 class RateLimit {
  public:
   bool is_due(const std::string& key) {
@@ -117,12 +117,12 @@ class RateLimit {
   std::map<std::string, std::int64_t> last_recorded_;
 };
 
-// Returns whether clients repeat the call as long as an action continues.
+// Returns whether clients repeat calls of a method as long as an action continues.
 bool is_frequent(const std::string& what) {
   return what == "RigService.Jog" || what == "LeaseService.RenewLease";
 }
 
-/// Records calls; frequent ones at most once a minute for each caller and outcome.
+/// Records calls; frequent calls at most once a minute for each caller, method and outcome.
 class Recorder {
  public:
   explicit Recorder(auth::AuditLog& audit) : audit_(audit) {}
@@ -179,7 +179,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
     entry_.object = object_of(*request);
     entry_.detail = detail_of(*request);
   }
-  // The name of a created object is known only from the response.
+  // The name of a created resource is known only from the response.
   void see_reply(const Message* reply) {
     if (reply != nullptr && entry_.object.empty()) entry_.object = object_of(*reply);
   }
@@ -197,7 +197,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
   auth::AuditEntry entry_;
 };
 
-// Returns whether calls of a method are recorded: "/hydroprint.v1.RigService/MoveTo".
+// Returns whether calls of a method ("/hydroprint.v1.RigService/MoveTo") are recorded.
 bool is_noted(std::string method) {
   if (method.empty()) return false;
   method.erase(0, 1);

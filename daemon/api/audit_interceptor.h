@@ -9,16 +9,16 @@
 
 namespace hydroprint::daemon {
 
-/// Records calls that change something (all except google.api.http GET): the caller, the object and
-/// the result. Skips unauthenticated calls, SignIn (which records itself), uploaded chunks and
-/// previews. Frequent calls (Jog, RenewLease) are recorded at most once a minute.
-/// The response waits until the entry is on disk, at most two seconds. Calls that stop the rig or
-/// keep it in motion (StopMotion, Jog, RenewLease) never wait.
+/// Records calls that change something (all except google.api.http GET): the caller, the resource
+/// and the result. Skips unauthenticated calls, SignIn (which PeopleService records), streams (such
+/// as UploadChunk) and previews. Frequent calls (Jog, RenewLease) are recorded at most once a
+/// minute. The response waits until the entry is on disk, at most two seconds. Calls that stop the
+/// rig or keep it in motion (StopMotion, Jog, RenewLease) never wait.
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
 
-/// Records calls that an endpoint rejects because of the caller's role, by the same rules. Does not
-/// wait. `audit` must outlive it.
+/// Returns a function that records calls that an endpoint rejects because of the caller's role. It
+/// skips the same calls as make_audit_interceptor(), and does not wait; `audit` must outlive it.
 [[nodiscard]] OnRefusal make_refusal_recorder(auth::AuditLog& audit);
 
 }  // namespace hydroprint::daemon

@@ -37,7 +37,7 @@ bool is_grpcs_own(std::string_view method) {
 class ForwardedCall;
 
 /// The client end of the channel within the process, through which the call reaches the service.
-/// Passes its events to the forwarded call.
+/// Reports its events to the forwarded call.
 class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
   explicit ServiceSide(ForwardedCall& call) : call_(call) {}
@@ -47,10 +47,10 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
     for (const auto& [name, value] : metadata) context_.AddMetadata(name, value);
     context_.set_deadline(deadline);
     stub.PrepareBidiStreamingCall(&context_, method, {}, this);
-    AddHold();  // writes start outside this reactor's own callbacks
+    AddHold();  // because writes start outside the callbacks of this reactor
     StartCall();
-    // A read is always pending, because gRPC loses an unread in-process response when the status
-    // follows it.
+    // A read is always pending, because within a process, gRPC drops a response that is not being
+    // read when the status arrives.
     StartRead(&response);
   }
   void write() {
@@ -109,7 +109,7 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
   int inside_ = 0;
 };
 
-/// One forwarded call. In each direction, a message is read once the previous one has been
+/// One forwarded call. In each direction, a message is read after the previous message has been
 /// accepted.
 class ForwardedCall final : public grpc::ServerGenericBidiReactor {
  public:
@@ -119,12 +119,12 @@ class ForwardedCall final : public grpc::ServerGenericBidiReactor {
     read();
   }
 
-  // Called for the service.
+  // Called by ServiceSide.
   void read() { StartRead(&service_.request); }
   void respond() { StartWrite(&service_.response); }
   void finish(const grpc::Status& status) { Finish(status); }
 
-  // Called for the client.
+  // Called by gRPC for events on the client's side.
   void OnReadDone(bool ok) override { ok ? service_.write() : service_.end_writing(); }
   void OnWriteDone(bool ok) override { ok ? service_.read() : service_.cancel(); }
   void OnCancel() override { service_.try_cancel(); }

@@ -90,7 +90,7 @@ class EventWatch {
     return fail(Code::kCancelled, "the client disconnected");
   }
 
-  // Returns true if no more events are pending.
+  // Sends one batch of job events. Returns whether no more events are pending.
   Result<bool> send_jobs() {
     if (!topics_.job) return true;
     HP_ASSIGN_OR_RETURN(const auto events, backend_.jobs.all_events(seq_, kEventBatch));

@@ -20,13 +20,14 @@ namespace {
 
 // Every watch and every running transfer occupies a thread.
 constexpr int kMostThreads = 512;
-// Maximum size of a response; only the page size limits lists.
+// Largest size of a response. Lists can be long, because only the page size limits them.
 constexpr int kMostAnswer_bytes = 64 << 20;
 
 constexpr int kHandshake_ms = 10'000;
-constexpr int kIdle_ms = 600'000;  // without a call; clients reconnect automatically
+// Connections without calls for this time are closed; clients reconnect automatically.
+constexpr int kIdle_ms = 600'000;
 
-constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
+constexpr const char* kRigService = "hydroprint.v1.RigService";  // health: set_rig_serving()
 struct NamedService {
   const char* name;
   std::unique_ptr<grpc::Service> (*make)(const ServiceContext&);
@@ -52,7 +53,7 @@ void log_of_grpc(gpr_log_func_args* entry) {
   log(is_ours ? LogLevel::kWarning : LogLevel::kDebug, "grpc", {{"message", entry->message}});
 }
 
-/// A server without the extensions that libraries add to every server, such as reflection.
+/// Builds a server without the plugins that libraries add to every server, such as reflection.
 class NoPlugins final : public grpc::ServerBuilderOption {
  public:
   void UpdateArguments(grpc::ChannelArguments*) override {}
@@ -70,7 +71,7 @@ struct Server::Impl {
 
   RoleCheck roles;
   std::vector<std::unique_ptr<grpc::Service>> services;
-  std::unique_ptr<grpc::Server> within;  // the services; listens on no port
+  std::unique_ptr<grpc::Server> within;  // runs the services; listens on no port
   std::unique_ptr<CallForwarder> forwarder;
   // gRPC calls the credentials as long as the endpoint exists.
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
@@ -104,12 +105,12 @@ void Server::Impl::start_services(bool reflection, auth::AuditLog& audit) {
   builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
   for (const auto& service : services) builder.RegisterService(service.get());
   within = builder.BuildAndStart();
-  grpc::EnableDefaultHealthCheckService(false);  // the services provide it, not the endpoint
+  grpc::EnableDefaultHealthCheckService(false);  // the endpoint forwards health checks to `within`
 }
 
 Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identity) {
   grpc::ServerBuilder builder;
-  builder.SetOption(std::make_unique<NoPlugins>());  // the services provide them
+  builder.SetOption(std::make_unique<NoPlugins>());  // `within` has the plugins
   // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // Disconnects clients that send nothing after connecting.
@@ -123,7 +124,7 @@ Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identit
   if (!server || port == 0) {
     return fail(Code::kUnavailable,
                 fmt::format("cannot listen at {}: the address is in use, perhaps by another "
-                            "hydroprintd; stop that, or set another port with --grpc",
+                            "hydroprintd; stop that program or set another port with --grpc",
                             wanted.text()));
   }
   endpoint = {wanted.host, port};

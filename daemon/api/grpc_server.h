@@ -15,12 +15,13 @@ class Channel;
 
 namespace hydroprint::daemon {
 
-/// Runs the services within the process, with health and optional reflection. Also runs the gRPC
-/// endpoint, which authorizes calls and forwards them to the services (call_forwarder.h).
+/// Runs the services within the process, with the health service and, if enabled, reflection. Also
+/// runs the gRPC endpoint, which authorizes calls and forwards them to the services
+/// (call_forwarder.h).
 class Server {
  public:
   /// Starts listening and answering calls.
-  /// @param identity  TLS certificate and key; null: without TLS
+  /// @param identity  TLS certificate and key; empty: without TLS
   /// @return kUnavailable if the address cannot be bound, usually because it is in use
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Endpoint& endpoint,
                                                              bool reflection,
@@ -33,14 +34,14 @@ class Server {
   /// Returns a channel to the services for another endpoint, which must authorize its own calls.
   /// May outlive this object.
   [[nodiscard]] std::shared_ptr<grpc::Channel> in_process() const;
-  /// Returns the check that every endpoint makes before it calls the services.
+  /// Returns the role check that every endpoint makes before it calls the services.
   [[nodiscard]] const RoleCheck& roles() const;
-  /// Returns the address it listens on, with the actual port.
+  /// Returns the address on which the endpoint listens, with the actual port.
   [[nodiscard]] const Endpoint& endpoint() const;
   /// Sets the health status of the RigService; false at first.
   void set_rig_serving(bool serving);
-  /// Reports "not serving", rejects new calls and waits for running calls; cancels them after
-  /// `patience`.
+  /// Reports "not serving", rejects new calls and waits for running calls. After `patience`,
+  /// cancels the calls that still run.
   void stop(std::chrono::milliseconds patience);
 
  private:

@@ -8,7 +8,7 @@ constexpr std::chrono::milliseconds kPollInterval{250};
 
 tl::unexpected<Error> client_gone() { return fail(Code::kCancelled, "the client disconnected"); }
 
-// Sends events after `seq` and advances it; true if there were any.
+// Sends the events after `seq` and advances `seq`. Returns whether there were any events.
 Result<bool> send_events(const ServiceContext& backend, std::int64_t id, std::int64_t& seq,
                          const std::function<bool(const WatchItem&)>& send) {
   HP_ASSIGN_OR_RETURN(const auto events, backend.jobs.events(id, seq, kBatch));
@@ -29,8 +29,8 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
                  std::optional<std::int64_t> after_seq,
                  const std::function<bool(const WatchItem&)>& send,
                  const std::function<bool()>& gone) {
-  // Reads the number before the job, so that an event between the two is sent twice rather than
-  // lost.
+  // Reads the sequence number before the job, so that an event between these two reads is sent
+  // again rather than lost.
   HP_ASSIGN_OR_RETURN(std::int64_t seq, backend.jobs.last_seq());
   if (after_seq) {
     HP_RETURN_IF_ERROR(backend.jobs.events(id, *after_seq, 1));

@@ -69,7 +69,8 @@ v1::AuditEntry entry_message(const auth::AuditEntry& entry) {
   return out;
 }
 
-// Hides other users' keys and sessions from callers who are not admins.
+// Returns whether keys and sessions of `owner` are hidden from the caller. Only admins see those of
+// other users.
 bool is_hidden(const Caller& caller, const std::string& owner) {
   return caller.role < Role::kAdmin && caller.name != owner;
 }
@@ -151,7 +152,8 @@ class PeopleService final : public v1::PeopleService::Service {
     return grpc::Status::OK;
   }
 
-  // Throttled attempts are not recorded, because anyone could fill the store with them.
+  // Attempts rejected by the rate limit are not recorded, because anyone could fill the audit log
+  // with them.
   void note_sign_in(const grpc::ServerContext& context, const v1::SignInRequest& request,
                     const Result<auth::SignedIn>& outcome) {
     if (!outcome && outcome.error().reason == "TOO_MANY_ATTEMPTS") return;
@@ -176,7 +178,7 @@ class PeopleService final : public v1::PeopleService::Service {
                  v1::SignInResponse& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     if (request.link_token().empty() == request.user().empty()) {
-      return invalid_field("user", "is required with a password, unless link_token is set");
+      return invalid_field("user", "set either user and password, or link_token");
     }
     const std::string peer = credentials_of(context).peer;
     const auto in =
@@ -266,7 +268,7 @@ class PeopleService final : public v1::PeopleService::Service {
     return backend_.accounts.users().set_password(name, request.new_password(), caller.session);
   }
 
-  // Without an old password the caller must have a session that a link started. A key is not
+  // A user without a password needs a session, which a sign-in link has started. An API key is not
   // sufficient: it may have a lower role than its user, who gets the full role by signing in with
   // the password.
   Status check_old_password(const Caller& caller, const auth::User& user,
@@ -287,8 +289,8 @@ class PeopleService final : public v1::PeopleService::Service {
     return {};
   }
 
-  // Returns the user whose keys or sessions are to be listed. Only an admin may list those of other
-  // users.
+  // Returns the user whose keys or sessions are to be listed; empty: all users. Only admins may
+  // list those of other users.
   static Result<std::string> wanted(const Caller& caller, const std::string& user) {
     if (user.empty()) return caller.role == Role::kAdmin ? std::string() : caller.name;
     HP_ASSIGN_OR_RETURN(std::string name, name_in("users", user));
@@ -365,7 +367,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("sessions", request.name()));
     const auto session = backend_.accounts.sessions().get(id);
     if (!session || is_hidden(caller, session->user)) {
-      return fail(Code::kNotFound, request.name() + ": there is no such session of yours",
+      return fail(Code::kNotFound, request.name() + ": you have no such session",
                   "SESSION_NOT_FOUND");
     }
     return backend_.accounts.sessions().end(id);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Throws an exception of the JSON library if a key is missing.
+// Copies the warnings of the worker. Throws an exception of the JSON library if a key is missing.
 void add_warnings(const Json& head, v1::Preview& out) {
   for (const Json& entry : head.at("warnings")) {
     v1::Preview::Warning& warning = *out.add_warnings();

@@ -34,7 +34,7 @@ class QueueService final : public v1::QueueService::Service {
                        v1::Job* reply) override {
     const auto job = move(*request);
     if (!job) return to_grpc(job.error());
-    *reply = to_message(*job);  // operators may see everything
+    *reply = to_message(*job);  // callers are operators, who may see everything
     return grpc::Status::OK;
   }
 

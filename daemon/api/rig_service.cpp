@@ -19,14 +19,15 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-// Together with JobService's limit, this is far below the server's number of threads.
+// Each watch occupies a thread. With the watches of JobService and EventService, the number of
+// threads stays far below the limit of the server.
 constexpr int kMaxRigWatches = 32;
 constexpr double kDefaultRate_hz = 10;
 constexpr std::chrono::seconds kQuietest{2};
 constexpr milliseconds kWatchInterval{100};
 constexpr double kDefaultSpeed_mm_per_s = 5;
 
-/// StopMotion has its own threads, which other calls cannot occupy.
+/// StopMotion runs on separate threads (of gRPC's callback API), which other calls cannot occupy.
 class RigService final
     : public v1::RigService::WithCallbackMethod_StopMotion<v1::RigService::Service> {
  public:

@@ -58,7 +58,7 @@ struct ServiceContext {
 /// Returns the page size: the default for 0, at most 1000; SPEC_INVALID if negative.
 [[nodiscard]] Result<int> page_size(std::int32_t size, int default_size);
 
-/// Returns kUnavailable, SHUTTING_DOWN once the daemon shuts down.
+/// Returns kUnavailable, SHUTTING_DOWN if the daemon is shutting down.
 [[nodiscard]] Status check_serving(const ServiceContext& backend);
 
 /// Converts UNAVAILABLE (also from a busy drive) to kAborted for calls that may move the rig,
@@ -68,11 +68,11 @@ struct ServiceContext {
 /// Returns the error kInvalidArgument, PAGE_TOKEN_INVALID.
 [[nodiscard]] tl::unexpected<Error> bad_page_token();
 
-/// Parses a numeric page token; 0 for an empty one.
+/// Parses a numeric page token; 0 for an empty token.
 [[nodiscard]] Result<std::int64_t> number_token(const std::string& token);
 
-/// Removes the extra item from a list with one item more than the page size. Returns whether there
-/// was one.
+/// Shortens a list, which was read with one item more than the page size, to that size. Returns
+/// whether it was longer, and so another page exists.
 template <class Items>
 [[nodiscard]] bool cut_page(Items& items, int size) {
   if (items.size() <= static_cast<std::size_t>(size)) return false;

@@ -9,7 +9,7 @@ namespace hydroprint::http {
 /// The parts of a download target, "/v1/jobs/7/artifacts/film.png:download?inline=1".
 struct ArtifactPath {
   std::string name;        ///< "jobs/7/artifacts/film.png"; decoded, not checked
-  bool is_inline = false;  ///< to be displayed instead of saved
+  bool is_inline = false;  ///< the browser should display the artifact instead of saving it
   bool is_good = true;     ///< false: a malformed escape, or a query other than inline=1
 };
 

@@ -40,9 +40,11 @@ Response refused_head(Exchange::BeginResult begin_result) {
                       {}},
                      408);
     default:
-      return refusal(
-          {Code::kInvalidArgument, "this is not an HTTP/1.1 request", "REQUEST_MALFORMED", {}},
-          400);
+      return refusal({Code::kInvalidArgument,
+                      "the request line or header is not valid HTTP/1.1; correct the request",
+                      "REQUEST_MALFORMED",
+                      {}},
+                     400);
   }
 }
 
@@ -54,14 +56,14 @@ Task<bool> send_last(Socket& socket, Response response, milliseconds timeout) {
   co_return co_await socket.written(text, timeout);
 }
 
-// Serves one request; true if another may follow.
+// Serves one request; returns whether another may follow on the connection.
 Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socket,
                      std::string& buffered, bool is_first) {
   Exchange exchange(socket, server.options.limits, buffered);
   const Exchange::BeginResult begin_result = co_await exchange.begin_request(is_first);
   if (begin_result == Exchange::BeginResult::kGone) co_return false;
   if (begin_result != Exchange::BeginResult::kYes) {
-    // The start of the next request is unknown.
+    // The connection cannot continue, because the start of the next request is unknown.
     Response response = refused_head(begin_result);
     server.metrics.count_request("unreadable", "", response.status);
     co_await send_last(*socket, std::move(response), server.options.limits.write_time);
@@ -78,10 +80,11 @@ Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socke
 Task<bool> open_connection(Socket& socket, milliseconds timeout) {
   const Socket::OpenResult open_result = co_await socket.opened(timeout);
   if (open_result == Socket::OpenResult::kPlainHttp) {
-    Response response = refusal({Code::kInvalidArgument,
-                                 "this port speaks TLS; write https:// in place of http://",
-                                 "REQUEST_MALFORMED",
-                                 {}});
+    Response response =
+        refusal({Code::kInvalidArgument,
+                 "this port uses TLS; write https:// instead of http:// in the address",
+                 "REQUEST_MALFORMED",
+                 {}});
     const bool is_sent = co_await send_last(socket, std::move(response), kLinger);
     if (is_sent) co_await close_gracefully(socket);
   }

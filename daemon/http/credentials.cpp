@@ -8,7 +8,7 @@
 namespace hydroprint::http {
 namespace {
 
-// gRPC aborts the program on other bytes.
+// gRPC aborts the program if metadata contains other bytes.
 bool is_printable(char c) { return c >= ' ' && c < 0x7f; }
 
 bool is_printable(std::string_view text) {

@@ -16,7 +16,7 @@ namespace hydroprint::http {
 
 /// Handling of header fields that are not printable ASCII, which gRPC cannot transport.
 enum class Unprintable {
-  kRefuse,   ///< SPEC_INVALID
+  kRefuse,   ///< rejects the request with SPEC_INVALID
   kReplace,  ///< replaces each such byte with '?', so that a stop is never refused
 };
 

@@ -66,7 +66,7 @@ DownloadPlan plan_download(const Head& head, const v1::Artifact& artifact, bool 
   return out;
 }
 
-/// One download. The next piece is requested after the previous one was sent.
+/// One download. Each piece is requested after the previous piece was sent.
 class Download {
  public:
   Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
@@ -99,7 +99,7 @@ class Download {
   }
 
  private:
-  // Reads the next piece; nullopt if the call has ended.
+  // Reads the next piece; nullopt if the call has ended or the store does not answer in time.
   Task<std::optional<std::string>> next() {
     AsyncValue<std::optional<std::string>> async_value(exchange_.shared_socket());
     stream_->read(async_value.receiver());
@@ -125,10 +125,11 @@ class Download {
   std::unique_ptr<Stream> stream_;
 };
 
-// Returns the response to other methods, which a browser must not mistake for the file.
+// Returns the response to methods other than GET and HEAD. A browser must not mistake it for the
+// file.
 Response only_get() {
   Response response = refusal(
-      {Code::kUnimplemented, "an artifact can only be read; use GET", "METHOD_NOT_ALLOWED", {}},
+      {Code::kUnimplemented, "artifacts are read-only; use GET or HEAD", "METHOD_NOT_ALLOWED", {}},
       405);
   response.fields.set("Allow", "GET, HEAD, OPTIONS");
   return response;
@@ -145,10 +146,11 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
   }
   const auto metadata = admit(server, exchange, kDownload);
   if (!metadata || !target.is_good) {
-    Error error{Code::kInvalidArgument,
-                "a download takes only the parameter inline=1",
-                "PARAMETER_INVALID",
-                {}};
+    Error error{
+        Code::kInvalidArgument,
+        "the path or query of this download is not valid; the only allowed query is inline=1",
+        "PARAMETER_INVALID",
+        {}};
     if (!metadata) error = metadata.error();
     co_await refuse(exchange, std::move(error));
     co_return route;

@@ -29,7 +29,7 @@ void fill(grpc::ClientContext& context, const InProcessChannel::Metadata& metada
   for (const auto& [name, value] : metadata) context.AddMetadata(name, value);
 }
 
-/// Counts the calls that may still call back.
+/// Counts the calls whose callbacks may still be called.
 class Calls {
  public:
   void begin() {
@@ -76,8 +76,8 @@ class UnaryCall final : public Call {
   OneCall one_;
 };
 
-/// gRPC's side of a stream. It lives until gRPC reports the end of the call, even if the stream was
-/// destroyed before.
+/// The part of a stream that gRPC uses. It lives until gRPC reports the end of the call, even if
+/// the GrpcStream was destroyed before.
 class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
   explicit Reactor(std::shared_ptr<Calls> calls) : one_(std::move(calls)) {}
@@ -123,7 +123,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
       read_done_ = nullptr;
       was_reading = std::exchange(is_reading_, true);
     }
-    // Reads to the end, because gRPC does not report the status before that.
+    // Reads all remaining messages, because gRPC reports the status only after them.
     if (!was_reading) StartRead(&incoming_);
     RemoveHold();
   }

@@ -37,12 +37,12 @@ class Call {
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Reads the next message; nullopt after the last.
+  /// Reads the next message. The callback receives nullopt after the last message.
   virtual void read(std::function<void(std::optional<std::string>)> done) = 0;
   /// Writes a message. The callback receives true when the other side has accepted it, and false if
   /// the call has ended.
   virtual void write(std::string message, bool is_last, std::function<void(bool)> done) = 0;
-  /// Half-closes the stream; not needed after the last message.
+  /// Half-closes the stream; not needed after a write() with is_last.
   virtual void end_writing() = 0;
   virtual void cancel() = 0;
   /// Reads the final status. No reads or writes may follow. Unread messages are read and dropped,
@@ -69,7 +69,7 @@ class InProcessChannel {
                               std::function<void(Reply)> done) const;
   [[nodiscard]] std::unique_ptr<Stream> stream(const std::string& method,
                                                const Metadata& metadata) const;
-  /// Waits for all calls to end; no callback follows. Returns false on timeout.
+  /// Waits until all calls have ended, after which no callback is called. Returns false on timeout.
   [[nodiscard]] bool wait_for_none(std::chrono::milliseconds patience) const;
 
  private:

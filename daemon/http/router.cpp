@@ -33,8 +33,8 @@ std::string_view without_port(std::string_view host) {
   return is_port(host.substr(colon + 1)) ? host.substr(0, colon) : std::string_view();
 }
 
-// Prevents DNS rebinding, in which a foreign page resolves its own name to this address and sends
-// that name as Host.
+// Returns whether `host` names this server. This prevents DNS rebinding, in which the host name of
+// a foreign page resolves to this address, so that browsers send that name as Host.
 bool is_ours(const Options& options, std::string_view host) {
   const std::string_view name = without_port(host);
   const auto is = [&](std::string_view ours) { return same_name(name, ours); };
@@ -44,8 +44,9 @@ bool is_ours(const Options& options, std::string_view host) {
          (options.identity && tls::stands_for(*options.identity(), name));
 }
 
-// Detects form posts from foreign pages, for which browsers send Origin. A third party on the
-// network can forge an origin without TLS.
+// Returns whether a request comes from a page of another origin, such as a form there. Browsers
+// send the origin of the page. With TLS, origins without TLS also count as foreign, because others
+// on the network can forge their pages.
 bool comes_from_elsewhere(const Head& head, bool is_secure) {
   const auto origin = head.fields.find("Origin");
   if (!origin) return same_name(head.fields.find("Sec-Fetch-Site").value_or(""), "cross-site");
@@ -55,8 +56,8 @@ bool comes_from_elsewhere(const Head& head, bool is_secure) {
          !same_name(origin->substr(scheme + 3), head.fields.find("Host").value_or(""));
 }
 
-// Returns a stop is executed from the head of the request alone; its connection is closed
-// afterwards.
+// Returns an error if the end of the body is unknown. Calls that stop motion are exempt, because
+// they are executed from the head of the request alone; their connection is closed afterwards.
 std::optional<Response> refused_framing(const ServerContext& server, const Head& head) {
   if (head.has_known_end() || server.transcoder.stops_motion(head.method, head.target)) return {};
   const bool is_unknown = head.framing == BodyFraming::kUnknownCoding;
@@ -97,7 +98,8 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
   return {};
 }
 
-// Answers methods other than GET and HEAD on a path that supports only these two.
+// Answers methods other than GET and HEAD on a path that supports only these two. Returns whether
+// it sent a response.
 Task<bool> is_refused_method(Exchange& exchange) {
   const std::string& method = exchange.head().method;
   if (method == "GET" || method == "HEAD") co_return false;

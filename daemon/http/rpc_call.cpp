@@ -1,4 +1,4 @@
-// Makes unary calls of the services.
+// Answers requests for methods of the services.
 #include "daemon/http/rpc_call.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kGrace{5000};  // lets gRPC report the timeout itself
+constexpr milliseconds kGrace{5000};  // time for gRPC to report the timeout of a call
 
 // "/hydroprint.v1.JobService/GetJob" -> "JobService/GetJob".
 std::string short_name(const std::string& method) {
@@ -49,7 +49,10 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   response.status = 204;
   const std::string allowed = allowed_at(server, exchange.head().target);
   if (allowed.empty()) {
-    response = refusal({Code::kNotFound, "no such path; see /openapi.json", "ROUTE_NOT_FOUND", {}});
+    response = refusal({Code::kNotFound,
+                        "there is no endpoint at this path; see /openapi.json",
+                        "ROUTE_NOT_FOUND",
+                        {}});
   } else {
     response.fields.set("Allow", allowed);
   }
@@ -76,7 +79,8 @@ Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call re
   co_await exchange.send(std::move(response));
 }
 
-// Reads the body. A call that stops motion does not wait for the body, which may never arrive.
+// Reads the body, except for calls that stop motion: they must not wait for a body that may never
+// arrive.
 Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchange) {
   const Head& head = exchange.head();
   if (server.transcoder.stops_motion(head.method, head.target)) co_return std::string();
@@ -107,7 +111,7 @@ Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call request,
   exchange.socket().unwatch();
   if (in_time) co_return async_value.take();
   under_way->cancel();
-  co_return Reply{4, "the daemon did not answer in time; check whether the request was carried out",
+  co_return Reply{4, "the daemon did not answer in time; check whether the request was executed",
                   "", ""};
 }
 

@@ -13,8 +13,8 @@ namespace hydroprint::http {
 /// @return the route name for the metrics
 [[nodiscard]] Task<std::string> answer_call(ServerContext& server, Exchange& exchange);
 
-/// Makes a call and waits for the response. The call is cancelled if the client disconnects, unless
-/// it stops motion.
+/// Makes a call and waits for the response. If the client disconnects, the call is cancelled,
+/// unless its method stops motion.
 [[nodiscard]] Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call call,
                                InProcessChannel::Metadata metadata);
 

@@ -8,7 +8,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStopPatience{2000};
-// Maximum of simultaneous replies; further connections are closed without a reply.
+// Largest number of connections beyond Limits::connections that get an error response at the same
+// time. Further connections are closed without a response.
 constexpr int kMaxRejected = 64;
 
 }  // namespace
@@ -64,7 +65,7 @@ void Server::stop() {
   const bool all_ended = impl_->server->connections.wait_for_none(kStopPatience) &&
                          impl_->server->rpc.wait_for_none(kStopPatience);
   impl_->listener->stop();
-  // A call that has not ended could still call back, so the objects that it uses are leaked.
+  // A call that has not ended may still use these objects in its callback, so they are leaked.
   if (!all_ended)
     static_cast<void>(impl_->listener.release()), static_cast<void>(impl_->server.release());
 }

@@ -23,12 +23,12 @@ namespace hydroprint::http {
 /// Settings of the server.
 struct Options {
   std::string host;  ///< "127.0.0.1"
-  int port = 0;      ///< 0: any
+  int port = 0;      ///< 0: any free port
   /// Further host names that browsers may use, in addition to loopback and the certificate's names.
   std::vector<std::string> host_names;
   std::filesystem::path web_dir;  ///< the web client's files; may be missing
   Limits limits;
-  tls::CurrentIdentity identity;  ///< TLS certificate and key; none: no TLS
+  tls::CurrentIdentity identity;  ///< TLS certificate and key; empty: without TLS
 };
 
 /// Health of the daemon, returned by /healthz.
@@ -37,7 +37,8 @@ struct Health {
   std::string json;
 };
 
-/// Determines the caller of an API method and checks its role (RoleCheck::admit). Never waits.
+/// Determines the caller of an API method and checks the caller's role (RoleCheck::admit). Never
+/// waits.
 using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
                                                                 const auth::Credentials&)>;
 
@@ -55,9 +56,9 @@ struct Sources {
 class Server {
  public:
   /// Starts listening and serving.
-  /// @param channel  to the services, in process
+  /// @param channel  in-process channel to the services
   /// @return kUnavailable if the address cannot be bound; kInvalidArgument if the web client is too
-  /// large
+  /// large (StaticFiles::load)
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Options& options,
                                                              std::shared_ptr<grpc::Channel> channel,
                                                              Sources sources);
@@ -70,8 +71,8 @@ class Server {
   [[nodiscard]] int port() const;
   /// Stops accepting new connections.
   void stop_accepting();
-  /// Ends running requests within about a second. The services must have ended their calls, or must
-  /// still be able to respond.
+  /// Ends running requests within about a second. By then the services must have ended their calls,
+  /// or they must still be able to respond.
   void stop();
 
  private:

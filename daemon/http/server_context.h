@@ -24,7 +24,7 @@ struct ServerContext {
   StaticFiles files;
   Connections connections;
   HttpMetrics metrics;
-  std::atomic<int> blocking_tasks{0};  // number of tasks waiting for the blocking thread
+  std::atomic<int> blocking_tasks{0};  // number of tasks queued or running on the blocking thread
 };
 
 }  // namespace hydroprint::http

@@ -1,4 +1,4 @@
-// Browser sessions: a cookie that scripts cannot read, and a token that pages must send in
+// Browser sessions: a cookie that scripts cannot read, and a CSRF token that pages must send in
 // addition.
 #include "daemon/http/session_cookie.h"
 
@@ -25,7 +25,7 @@ std::string cookie_text(std::string_view token, bool is_secure, std::string_view
 Status check_csrf(const Head& head) {
   if (head.method == "GET" || head.method == "HEAD" || head.method == "OPTIONS") return {};
   const auto session = cookie(head.fields, kSessionCookie);
-  // A foreign page cannot forge a request that has its own API key.
+  // A foreign page cannot add an API key to a forged request.
   if (!session || head.fields.find("Authorization")) return {};
   const std::string wanted = auth::csrf_token(*session);
   if (auth::equal_in_constant_time(head.fields.find(kCsrfHeader).value_or(""), wanted)) return {};

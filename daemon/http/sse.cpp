@@ -17,8 +17,8 @@ Response event_stream() {
   return response;
 }
 
-/// One stream to one client. The next message is requested after the previous one was sent. A
-/// client that does not read therefore occupies at most one message and the kernel's buffer.
+/// One stream to one client. Each message is requested after the previous message was sent, so a
+/// client that does not read occupies only one message and the kernel's buffer.
 class EventStream {
  public:
   EventStream(ServerContext& server, Exchange& exchange, rest::Call request,
@@ -36,20 +36,20 @@ class EventStream {
       socket->ring();
     });
     for (bool is_open = true; is_open;) is_open = co_await forward_event();
-    // Unwatches before end(), since unwatch() must not be called during a write.
+    // No write is in progress here, as unwatch() requires.
     exchange_.socket().unwatch();
     if (*gone_) exchange_.break_off();
   }
 
  private:
-  // Sends the request. The first read shows whether the services accepted it.
+  // Sends the request. The first read shows whether the service accepted the request.
   Task<void> ask() {
     AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(request_.request, true, written.receiver());
     co_await written.wait(kEndPatience);
   }
 
-  // Passes on one message; false at the end.
+  // Forwards one message; returns false if the stream has ended.
   Task<bool> forward_event() {
     stream_->read(message_.receiver());
     for (;;) {

@@ -12,7 +12,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-// "/hydroprint.v1.JobService/WatchJob" -> "job".
+// Returns the object that a method watches: "job" for "/hydroprint.v1.JobService/WatchJob".
 std::string watched(std::string_view method) {
   constexpr std::string_view kWatch = "Watch";
   method.remove_prefix(std::min(method.rfind('/') + 1, method.size()));

@@ -17,9 +17,9 @@ constexpr std::size_t kMostFiles = 10'000;
 
 constexpr const char* kNoClient =
     "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Hydroprint</title>\n"
-    "<h1>Hydroprint</h1>\n<p>The daemon is running, but its web client is not built: run "
-    "<code>deploy/build-web</code>, and restart the daemon, or set the folder in "
-    "<code>server.web_dir</code>.</p>\n<p>The API is at <a href=\"/openapi.json\">"
+    "<h1>Hydroprint</h1>\n<p>The daemon is running, but its web client was not found. Build it "
+    "with <code>deploy/build-web</code> or set its folder in <code>server.web_dir</code>, and "
+    "restart the daemon.</p>\n<p>The API is at <a href=\"/openapi.json\">"
     "/openapi.json</a>.</p>\n</html>\n";
 
 std::string type_of(const fs::path& path) {
@@ -59,7 +59,7 @@ Result<std::string> read_all(const fs::path& path) {
   return content;
 }
 
-// Whether the client accepts a coding; "br;q=0" means no.
+// Returns whether the client accepts a content coding; "br;q=0" rejects "br".
 bool accepts(const Head& head, std::string_view coding) {
   for (const std::string_view one :
        parts_of(head.fields.find("Accept-Encoding").value_or(""), ',')) {

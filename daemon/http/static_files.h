@@ -16,8 +16,8 @@ namespace hydroprint::http {
 /// path on the disk.
 class StaticFiles {
  public:
-  /// Reads a folder. If it is missing, the only page explains how to build the client. "app.js.br"
-  /// and "app.js.gz" are compressed variants of "app.js".
+  /// Reads a folder. If it has no index.html, that page explains how to build the client.
+  /// "app.js.br" and "app.js.gz" are compressed variants of "app.js".
   /// @return kInvalidArgument if the folder has more than 64 MiB or 10000 files
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 

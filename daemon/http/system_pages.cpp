@@ -1,4 +1,4 @@
-// Serves health, metrics and the web client's files.
+// Serves /healthz, /metrics and the web client's files.
 #include "daemon/http/system_pages.h"
 
 #include "daemon/http/error_response.h"
@@ -10,8 +10,8 @@ namespace {
 constexpr milliseconds kSourcePatience{5000};
 constexpr int kMaxBlockingTasks = 100;
 
-/// Runs a blocking function on another thread; nullopt on timeout, for example if the disk does not
-/// respond.
+/// Runs a blocking function on the blocking thread. Returns nullopt on timeout (for example, if the
+/// disk does not respond), or if too many tasks wait for that thread.
 template <class T>
 Task<std::optional<T>> fetch_blocking(ServerContext& server, Exchange& exchange,
                                       std::function<T()> source) {
@@ -43,7 +43,7 @@ Task<std::string> answer_health(ServerContext& server, Exchange& exchange) {
 Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange) {
   std::optional<std::string> text =
       co_await fetch_blocking<std::string>(server, exchange, server.sources.metrics);
-  // If the daemon's metrics are not available, the server's own are still sent.
+  // If the daemon's metrics are not available, the metrics of the HTTP server are still sent.
   Response response =
       text_response(200, text.value_or("") + server.metrics.text(server.connections.count()));
   response.fields.set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");

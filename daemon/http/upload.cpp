@@ -1,4 +1,4 @@
-// Passes the bytes of an upload from the connection to the store.
+// Passes the bytes of an upload from the connection to the asset service.
 #include "daemon/http/upload.h"
 
 #include "daemon/http/credentials.h"
@@ -23,7 +23,8 @@ Response state_of(const v1::Upload& upload) {
   return response;
 }
 
-/// Passes a body to the store. The next piece is read once the store has received the previous one.
+/// Passes a request body to the asset service. Each piece is read after the service has received
+/// the previous piece.
 class Passing {
  public:
   Passing(ServerContext& server, Exchange& exchange, std::string name, std::int64_t offset,
@@ -34,7 +35,7 @@ class Passing {
         offset_(offset) {}
 
   // Returns the call's status, or an Error if the body is incomplete. The store keeps the bytes
-  // received so far.
+  // received before the error.
   Task<Result<Reply>> run() {
     bool is_taken = co_await pass_on({});  // opens the upload, even if no bytes follow
     while (is_taken) {

@@ -6,7 +6,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// gRPC limits the total size of all details to 8 KiB.
+// Largest number of violations in an error, because gRPC limits the size of its details to 8 KiB.
 constexpr std::size_t kMostViolations = 16;
 // Prefix of a violation's metadata key; it is followed by a letter that keeps the order, and the
 // field.

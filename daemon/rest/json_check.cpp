@@ -22,7 +22,7 @@ using nlohmann::json;
 
 using Type = pb::FieldDescriptor::CppType;
 
-constexpr double kExactBelow = 9007199254740992;  // 2^53
+constexpr double kExactBelow = 9007199254740992;  // 2^53; smaller whole numbers are exact
 
 enum class ValueKind { kNull, kBool, kNumber, kString, kObject, kList };
 
@@ -55,7 +55,8 @@ class Checker : public nlohmann::json_sax<json> {
     const pb::FieldDescriptor* leaf = leaf_here();
     const bool is_whole = leaf != nullptr && (leaf->cpp_type() == Type::CPPTYPE_INT64 ||
                                               leaf->cpp_type() == Type::CPPTYPE_UINT64);
-    if (is_whole && std::abs(value) >= kExactBelow) return refuse("must be in quotes to be exact");
+    if (is_whole && std::abs(value) >= kExactBelow)
+      return refuse("must be in quotes, because a JSON number may lose digits");
     return number();
   }
 
@@ -170,7 +171,8 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool number() { return is_fit(ValueKind::kNumber) && end_value(); }
 
-  // Returns the field of the next value, or the field in its wrapper; null at the top level.
+  // Returns the field of the next value, or its inner field if it is a wrapper; null at the top
+  // level.
   [[nodiscard]] const pb::FieldDescriptor* leaf_here() const {
     if (levels_.empty()) return nullptr;
     const pb::FieldDescriptor* field = levels_.back().field;
@@ -207,7 +209,7 @@ class Checker : public nlohmann::json_sax<json> {
 
 Status check_json(std::string_view text, const pb::Descriptor& message) {
   Checker checker(text, message);
-  // The parser would skip a byte order mark, and treat NUL as the end.
+  // The parser would skip a byte order mark, and treat NUL as the end of the text.
   if (text.substr(0, 3) == "\xef\xbb\xbf")
     return tl::unexpected(checker.no_json(0, "byte order mark"));
   const std::size_t nul = text.find('\0');

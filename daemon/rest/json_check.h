@@ -10,8 +10,8 @@ class Descriptor;
 
 namespace hydroprint::rest {
 
-/// Rejects text that protobuf's parser would accept although it is invalid, or would take too long
-/// to parse; see read_json(). Time and memory are proportional to the length of the text.
+/// Rejects invalid text that protobuf's parser would accept, and text that this parser would take
+/// too long to parse; see read_json(). Time and memory are proportional to the length of the text.
 /// @param message  type of the message that the text represents
 [[nodiscard]] Status check_json(std::string_view text, const google::protobuf::Descriptor& message);
 

@@ -118,7 +118,7 @@ bool ends_open(const PathTemplate& path_template) {
   return path_template.segments.back().kind == Kind::kRest;
 }
 
-// Number of segments without a final `**`.
+// Returns the number of segments, not counting a final `**`.
 std::size_t fixed_count(const PathTemplate& path_template) {
   return path_template.segments.size() - (ends_open(path_template) ? 1 : 0);
 }
@@ -136,7 +136,7 @@ std::string value_of(const Variable& variable, const PathTemplate& path_template
   std::string value;
   for (std::size_t i = variable.begin; i < end; ++i) {
     if (i > variable.begin) value += '/';
-    // This cannot fail, because split_path() has decoded the segment before.
+    // Decoding cannot fail, because split_path() has already decoded the whole path.
     value += *decode(path.segments[i], is_single ? Keep::kNothing : Keep::kSlash);
   }
   return value;

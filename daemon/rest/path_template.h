@@ -13,9 +13,9 @@ namespace hydroprint::rest {
 /// One part of a path template, between two slashes.
 struct Segment {
   enum class Kind {
-    kLiteral,  ///< this text
+    kLiteral,  ///< the text `literal`
     kOne,      ///< `*`: any one segment
-    kRest,     ///< `**`: any number of segments, including zero; only as the last
+    kRest,     ///< `**`: any number of segments, including zero; only as the last segment
   };
   Kind kind = Kind::kLiteral;
   std::string literal;  ///< decoded; only for kLiteral

@@ -30,7 +30,7 @@ Result<std::string> decoded(std::string_view text, Keep keep, bool plus_is_blank
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c <= ' ' || c >= 0x7f || c == '#') {
-      return refuse(text, i, "not allowed in a URL; encode it as %XX");
+      return refuse(text, i, "this character is not allowed in a URL; encode it as %XX");
     }
     if (c != '%') {
       result += c == '+' && plus_is_blank ? ' ' : c;
@@ -52,14 +52,14 @@ Result<std::string> decoded(std::string_view text, Keep keep, bool plus_is_blank
   return result;
 }
 
-// Length of a character, and the range of its second byte.
+// Length of a UTF-8 character in bytes (0 if it is invalid), and the range of its second byte.
 struct Lead {
   std::size_t length;
   std::uint8_t least, most;
 };
 
-// Table 3-7 of the Unicode standard: excludes overlong forms, surrogates and code points above
-// U+10FFFF.
+// Returns the properties of a character from its first byte (table 3-7 of the Unicode standard).
+// The table excludes overlong forms, surrogates and code points above U+10FFFF.
 Lead lead_of(std::uint8_t byte) {
   if (byte < 0x80) return {1, 0, 0};
   if (byte >= 0xc2 && byte <= 0xdf) return {2, 0x80, 0xbf};

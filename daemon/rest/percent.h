@@ -16,7 +16,7 @@ enum class Keep {
 /// Percent-decodes part of a URL. Returns kInvalidArgument, URL_INVALID, with the place in
 /// `text`, for:
 /// - "%" without two hex digits;
-/// - characters that a URL cannot have;
+/// - characters that are not allowed in a URL;
 /// - decoded text that contains NUL or is not valid UTF-8 (overlong forms and surrogates are not
 ///   valid).
 [[nodiscard]] Result<std::string> decode(std::string_view text, Keep keep = Keep::kNothing);

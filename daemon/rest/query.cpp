@@ -20,7 +20,8 @@ bool are_one(const FieldPath& a, const FieldPath& b) {
 
 Status check_free(const Route& route, const FieldPath& path) {
   for (const FieldPath& bound : route.path_fields) {
-    if (are_one(bound, path)) return bad_parameter(path_text(path), "is already set by the path");
+    if (are_one(bound, path))
+      return bad_parameter(path_text(path), "is already set by the path; leave it out");
   }
   const bool in_body = route.body == Body::kAll || path.front() == route.body_field;
   return in_body ? bad_parameter(path_text(path), "belongs in the body") : Status{};

@@ -21,8 +21,8 @@ tl::unexpected<Error> refuse(const pb::MethodDescriptor& method, const std::stri
   return fail(Code::kInternal, method.full_name() + ", google.api.http: " + what);
 }
 
-// Returns the HTTP method and the path template of a rule; the method is empty if the rule has
-// none.
+// Returns the HTTP method and the path template of a rule; the HTTP method is empty if the
+// rule has none.
 std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   switch (rule.pattern_case()) {
     case HttpRule::kGet:
@@ -100,7 +100,8 @@ Status read_body(const pb::MethodDescriptor& method, const std::string& body, Ro
   return {};
 }
 
-// If a stop had fields in its body or query, errors in these fields could prevent it.
+// Requires that the path contains all fields of a call that stops motion. Errors in a body or query
+// could otherwise prevent the stop.
 Status read_stop(const pb::MethodDescriptor& method, Route& route) {
   route.stops_motion = method.options().GetExtension(v1::stops_motion);
   if (!route.stops_motion) return {};
@@ -108,7 +109,7 @@ Status read_stop(const pb::MethodDescriptor& method, Route& route) {
     const pb::FieldDescriptor* field = method.input_type()->field(i);
     const auto& bound = route.path_fields;
     if (std::find(bound.begin(), bound.end(), FieldPath{field}) != bound.end()) continue;
-    return refuse(method, "stops motion, so its path must hold the field " + field->name());
+    return refuse(method, "stops motion, so its path must contain the field " + field->name());
   }
   return {};
 }

@@ -36,7 +36,7 @@ struct Route {
   std::vector<FieldPath> path_fields;  ///< same order as path.variables
   Body body = Body::kNone;
   const google::protobuf::FieldDescriptor* body_field = nullptr;  ///< only for Body::kField
-  bool stops_motion = false;  ///< access.proto; body and query are ignored
+  bool stops_motion = false;  ///< access.proto; if true, body and query are ignored
 };
 
 /// Returns the full names of the services of package hydroprint.v1 ("hydroprint.v1.JobService").
@@ -67,7 +67,8 @@ struct Route {
 /// Duration, FieldMask and the wrappers.
 [[nodiscard]] bool is_written_as_value(const google::protobuf::FieldDescriptor& field);
 
-/// Returns whether the field is a wrapper, a message with one value (BoolValue, StringValue, ...).
+/// Returns whether the type of the field is a wrapper, a message with one value (BoolValue,
+/// StringValue, ...).
 [[nodiscard]] bool is_wrapper(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace hydroprint::rest

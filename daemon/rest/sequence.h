@@ -4,7 +4,7 @@
 
 namespace hydroprint::rest {
 
-/// Returns the singular int64 field with this name; null if there is none.
+/// Returns the int64 field with this name that is not repeated; null if there is none.
 [[nodiscard]] inline const google::protobuf::FieldDescriptor* number_called(
     const google::protobuf::Descriptor& message, const char* name) {
   const auto* field = message.FindFieldByName(name);

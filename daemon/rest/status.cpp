@@ -10,7 +10,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// Returns the name of the code, for errors without a reason.
+// Returns the reason to report for errors that state none.
 const char* default_reason(Code code) {
   switch (code) {
     case Code::kCancelled:
@@ -26,7 +26,7 @@ const char* default_reason(Code code) {
   }
 }
 
-// Seconds after which to retry; 0 if a retry does not help.
+// Returns the time after which to retry, s; 0 if a retry does not help.
 int retry_after_s(const Error& error) {
   for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
     if (error.reason == full) return 10;

@@ -68,8 +68,9 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
   HP_RETURN_IF_ERROR(read_json(body, request));
   for (const FieldPath& path : route.path_fields) {
     if (!has_value(request, path)) continue;
-    auto error = fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path",
-                      "JSON_INVALID");
+    auto error =
+        fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path; leave it out",
+             "JSON_INVALID");
     error.value().metadata["field"] = path_text(path);
     return error;
   }
@@ -105,7 +106,7 @@ struct Transcoder::Impl {
   std::vector<Route> routes;
   std::map<std::string, const pb::MethodDescriptor*, std::less<>> methods;
 
-  // All routes that match the path; an empty list is not an error.
+  // Returns all routes that match the path; the list may be empty.
   [[nodiscard]] Result<std::vector<Match>> matches(std::string_view path) const {
     HP_ASSIGN_OR_RETURN(const std::optional<Path> parts, split_path(path));
     std::vector<Match> found;

@@ -14,7 +14,7 @@ struct Call {
   std::string method;         ///< "/hydroprint.v1.JobService/CreateJob"
   bool streams = false;       ///< the response is a stream of messages
   std::string request;        ///< the request message, serialised
-  bool stops_motion = false;  ///< completed even if the client disconnects
+  bool stops_motion = false;  ///< the call is completed even if the client disconnects
 };
 
 /// Translates HTTP requests to calls of the gRPC API, and responses to JSON. Follows the
@@ -37,7 +37,7 @@ class Transcoder {
   /// Finds the call that a request asks for. For a call that stops motion, body and query are
   /// ignored.
   /// @param target  path and query as in the request line, undecoded: "/v1/jobs?pageSize=2"
-  /// @param body  JSON as sent; empty is the same as {}
+  /// @param body  JSON as sent; an empty body means {}
   /// Errors:
   /// - kNotFound, ROUTE_NOT_FOUND;
   /// - kUnimplemented, METHOD_NOT_ALLOWED: methods_at() lists the allowed methods; HEAD needs a

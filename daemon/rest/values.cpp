@@ -19,7 +19,7 @@ namespace {
 namespace pb = google::protobuf;
 using Type = pb::FieldDescriptor::CppType;
 
-// Parses the whole text as a number; nullopt if it does not fit.
+// Parses the whole text as a number; nullopt if it is not a finite number in the range of the type.
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
   Number number{};
@@ -45,7 +45,8 @@ std::optional<int> value_in(const pb::EnumDescriptor& names, const std::string& 
   return number && names.FindValueByNumber(*number) != nullptr ? number : std::nullopt;
 }
 
-// Sets or appends a value with the functions for its type; false if there is no value.
+// Sets the field, or appends to a repeated field, with the setters for its type; false if there is
+// no value.
 template <class Value, class Set, class Add>
 bool put(pb::Message& message, const pb::FieldDescriptor& field, const std::optional<Value>& value,
          Set set, Add add) {
@@ -113,7 +114,7 @@ std::string expected(const pb::FieldDescriptor& field) {
   if (field.message_type() != nullptr) return "a " + field.message_type()->name();
   if (field.type() == pb::FieldDescriptor::TYPE_BYTES) return "base64";
   if (field.type() == pb::FieldDescriptor::TYPE_BOOL) return "\"true\" or \"false\"";
-  return std::string("a number that fits, ") + field.type_name();
+  return std::string("a valid number of type ") + field.type_name();
 }
 
 // Returns another member of the field's oneof that is already set; null if there is none.
@@ -142,7 +143,9 @@ Status set_from_text(pb::Message& message, const FieldPath& path, const std::str
   pb::Message* inside = &message;
   for (const pb::FieldDescriptor* field : path) {
     if (const auto* other = rival(*inside, *field)) {
-      return bad_parameter(name, fmt::format("excludes {}, which is also given", other->name()));
+      return bad_parameter(
+          name,
+          fmt::format("excludes {}, which is also given; give only one of them", other->name()));
     }
     if (field != &last) inside = inside->GetReflection()->MutableMessage(inside, field);
   }

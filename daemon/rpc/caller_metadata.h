@@ -19,12 +19,12 @@ namespace hydroprint::daemon {
 using CallMetadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Returns the metadata of an authorized call.
-/// @param caller  nullopt: unknown; the method needs no sign-in
+/// @param caller  nullopt if the method needs no sign-in and the caller is unknown
 [[nodiscard]] CallMetadata caller_metadata(const std::optional<auth::Caller>& caller,
                                            const auth::Credentials& credentials);
 
 /// Returns the caller that the endpoint determined.
-/// @return kUnauthenticated, SIGN_IN_NEEDED if the caller is not known
+/// @return kUnauthenticated, SIGN_IN_NEEDED if the metadata contains no caller
 [[nodiscard]] Result<auth::Caller> caller_of(const grpc::ServerContextBase& context);
 
 /// Returns the credentials of the call.

@@ -9,7 +9,7 @@ namespace hydroprint::daemon {
 
 using rest::number_of;
 
-/// Converts an error to gRPC's status: code, message, and rest::status_details().
+/// Converts an error to a gRPC status with code, message and rest::status_details().
 [[nodiscard]] grpc::Status to_grpc(const Error& error);
 [[nodiscard]] grpc::Status to_grpc(const Status& status);
 

@@ -103,8 +103,8 @@ void CertificateReloader::warn_of_expiry() {
       is_over ? "certificate_expired" : "certificate_expires_soon",
       {{"file", certificate_file_.string()},
        {"expires", expiry_text(expire_s)},
-       {"message",
-        is_over ? "clients refuse it; renew it in the same files" : "renew it in the same files"}});
+       {"message", is_over ? "clients reject this certificate; replace it in the same files"
+                           : "replace the certificate in the same files before it expires"}});
 }
 
 }  // namespace hydroprint::daemon

@@ -17,7 +17,7 @@ namespace hydroprint::daemon {
 
 /// The certificate of the gRPC and HTTP servers. Checks its files every two seconds. A valid new
 /// pair applies to all later connections. An invalid pair is logged, and the previous pair remains
-/// in use. Logs once a day if the certificate has expired or is about to.
+/// in use. Logs once a day if the certificate has expired or expires within 14 days.
 class CertificateReloader {
  public:
   /// @return errors of tls::Identity::read()
@@ -42,8 +42,8 @@ class CertificateReloader {
 
   std::filesystem::path certificate_file_, key_file_;
   Clock clock_;
-  Stamps loaded_;        // this and the members below are used only by the thread, once it runs
-  std::string refused_;  // last logged error of an invalid pair
+  Stamps loaded_;        // after open(), only the thread uses this and the next two members
+  std::string refused_;  // last logged error; empty if the last pair read was valid
   std::int64_t warn_next_ms_ = 0;
   mutable std::mutex mutex_;
   std::shared_ptr<const tls::Identity> current_;

@@ -9,9 +9,9 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// gRPC's C interface requests the certificate at every handshake. gRPC's own classes do not
-/// suffice: they keep a certificate forever, or watch the files and have no certificate while the
-/// pair does not match.
+/// Credentials from gRPC's C interface, which requests the certificate at every handshake. The
+/// classes of gRPC's C++ interface do not suffice: they keep a certificate forever, or watch the
+/// files and have no certificate while the pair does not match.
 class TlsCredentials final : public grpc::ServerCredentials {
  public:
   explicit TlsCredentials(tls::CurrentIdentity identity)

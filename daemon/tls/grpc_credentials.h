@@ -8,7 +8,8 @@
 
 namespace hydroprint::daemon {
 
-/// Returns TLS credentials for a gRPC server that use the identity current when a client connects.
+/// Returns TLS credentials for a gRPC server that use the identity that is current when a client
+/// connects.
 /// The identity source must outlive the server.
 [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> tls_credentials(
     tls::CurrentIdentity identity);

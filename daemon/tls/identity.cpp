@@ -19,8 +19,8 @@ namespace hydroprint::tls {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
-// Ciphers for TLS 1.2; all ciphers of TLS 1.3 are acceptable. All provide forward secrecy: a stolen
-// key does not reveal earlier connections.
+// Ciphers for TLS 1.2; all ciphers of TLS 1.3 are acceptable. All these ciphers provide forward
+// secrecy: a stolen key does not reveal earlier connections.
 constexpr const char* kCiphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
 struct Deleter {
@@ -83,8 +83,8 @@ std::vector<Owned<X509>> certificates_in(const std::string& text) {
   return all;
 }
 
-// Rejects keys with a passphrase. OpenSSL would read it from a terminal, which a service does not
-// have.
+// Rejects keys with a passphrase. OpenSSL would read the passphrase from a terminal, which a
+// service does not have.
 int no_passphrase(char*, int, int, void*) { return -1; }
 
 std::string address_text(const ASN1_OCTET_STRING& bytes) {
@@ -132,7 +132,7 @@ std::shared_ptr<SSL_CTX> server_context() {
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION |
                                          SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
-  // Idle connections need no buffers; partial writes are continued later.
+  // Idle connections release their buffers; partial writes are continued later.
   SSL_CTX_set_mode(context.get(), SSL_MODE_RELEASE_BUFFERS | SSL_MODE_ENABLE_PARTIAL_WRITE |
                                       SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   return context;

@@ -12,7 +12,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-// Adds a flag that passes its value to a function of Reflection.
+// Adds a flag whose value is stored in the field with a setter of Reflection.
 template <class Value, class Set>
 CLI::Option* add_value(CLI::App& command, Message& spec, const FieldDescriptor& field, Set set) {
   const auto take = [&spec, &field, set](const Value& value) {
@@ -63,7 +63,7 @@ CLI::Option* add_double(CLI::App& command, Message& spec, const FieldDescriptor&
   return add_number_or_word(command, spec, field, usual);
 }
 
-// "sheet or stokes"
+// Joins names with "or": "sheet or stokes".
 std::string alternatives(const std::vector<std::string>& names) {
   std::string out;
   for (const std::string& name : names) out += (out.empty() ? "" : " or ") + name;
@@ -80,7 +80,7 @@ CLI::Validator one_of(const std::vector<std::string>& names) {
   return {check, "{" + CLI::detail::join(names, ",") + "}"};
 }
 
-// The choices are in the order of the enum after its zero value, which has no name here.
+// rules::choices() lists the values of the enum in order, without the zero value.
 CLI::Option* add_choice(CLI::App& command, Message& spec, const FieldDescriptor& field) {
   const auto names = rules::choices(field);
   const auto take = [&spec, &field, names](const std::string& text) {

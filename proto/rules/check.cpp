@@ -85,7 +85,8 @@ bool has(const pb::Message& message, const std::string& name) {
   return field != nullptr && count_of(message, *field) > 0;
 }
 
-// Names of the fields that other fields, which are set, replace; with the names of those.
+// Returns the names of the fields that are replaced, each with the name of the set field that
+// replaces it.
 std::map<std::string, std::string> replaced_fields(const pb::Message& message) {
   std::map<std::string, std::string> out;
   std::vector<const pb::FieldDescriptor*> fields;

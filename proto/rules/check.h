@@ -25,7 +25,7 @@ struct Violation {
 using FormatChecks = std::map<std::string, std::function<std::string(const std::string& text)>>;
 
 /// Checks a message and its nested messages. Read-only fields are ignored.
-/// @param path  path of the message itself, for Violation::field; empty: the root
+/// @param path  path of `message`, the prefix of Violation::field; empty for the root
 /// @return all violations, at most one for each field, in declaration order
 [[nodiscard]] std::vector<Violation> check(const google::protobuf::Message& message,
                                            const FormatChecks& formats = {},

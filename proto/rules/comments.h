@@ -12,8 +12,8 @@ namespace hydroprint::rules {
 /// Returns the first sentence of a comment, on one line.
 [[nodiscard]] std::string first_sentence(const std::string& comment);
 
-/// The default that a comment states in a sentence "Default: ...", on one line without quotation of
-/// code; empty if there is none.
+/// Returns the default that a comment states in a sentence "Default: ...", on one line and without
+/// backquotes; empty if the comment states no default.
 [[nodiscard]] std::string stated_default(const std::string& comment);
 
 }  // namespace hydroprint::rules

@@ -44,8 +44,8 @@ bool is_duration(const pb::FieldDescriptor& field) {
          field.message_type()->full_name() == "google.protobuf.Duration";
 }
 
-// "sheet" for "MODEL_SHEET": without the prefix, which the zero value ("MODEL_UNSPECIFIED")
-// defines.
+// Returns a value in the notation for users: "sheet" for "MODEL_SHEET". The name of the zero value
+// ("MODEL_UNSPECIFIED") determines the prefix to remove.
 std::string choice_text(const pb::EnumValueDescriptor& value) {
   constexpr std::string_view kZero = "UNSPECIFIED";
   const std::string& zero = value.type()->value(0)->name();
@@ -59,7 +59,7 @@ std::string choice_text(const pb::EnumValueDescriptor& value) {
   return text;
 }
 
-// The field that declares the rules: the one itself, or the one that it names as `like`.
+// Returns the field that declares the rules: `field` itself, or the field that its `like` names.
 const pb::FieldDescriptor& declared_by(const pb::FieldDescriptor& field) {
   const std::string& like = field.options().GetExtension(v1::rules).like();
   if (like.empty()) return field;
@@ -71,7 +71,7 @@ std::string joined(const std::string& first, const std::string& second) {
   return first.empty() || second.empty() ? first + second : first + "; " + second;
 }
 
-// Range, unit and choices.
+// Returns the range with its unit (or only the unit) and the choices.
 std::string limits(const pb::FieldDescriptor& field) {
   std::string text = range_text(field);
   const v1::FieldRules* const rules = rules_of(field);

@@ -17,7 +17,7 @@ namespace hydroprint::rules {
 /// Returns the rules of a field; null if it has none.
 [[nodiscard]] const v1::FieldRules* rules_of(const google::protobuf::FieldDescriptor& field);
 
-/// Returns whether a finite value lies in the range of the rules; true if they declare none.
+/// Returns whether a finite value lies in the range of the rules; true if they declare no range.
 [[nodiscard]] bool is_in_range(const v1::FieldRules& rules, double value);
 
 /// Returns "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
@@ -36,11 +36,12 @@ namespace hydroprint::rules {
 
 /// Help text of the field's command-line flag: its `flag_help`, otherwise the first sentence of its
 /// comment. Range, choices and default follow in parentheses; a default that the comment states
-/// ("Default: ...") replaces the declared one. If the comment is only "See ...", that of the field
-/// with the same rules (`like`) is used.
+/// ("Default: ...") replaces the declared one. If the comment begins with "See ", the comment of
+/// the field that `like` names is used instead.
 [[nodiscard]] std::string flag_help(const google::protobuf::FieldDescriptor& field);
 
-/// Name of the field's command-line flag, without dashes before it: "dip-speed-mm-per-s".
+/// Returns the name of the field's command-line flag without the leading "--":
+/// "dip-speed-mm-per-s".
 [[nodiscard]] std::string flag_of(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace hydroprint::rules

@@ -9,7 +9,7 @@
 
 namespace hydroprint::http {
 
-/// A value produced by another thread and awaited on a connection's strand.
+/// A value that another thread provides and a coroutine on a connection's strand awaits.
 template <class T>
 class AsyncValue {
  public:
@@ -28,7 +28,7 @@ class AsyncValue {
     };
   }
   [[nodiscard]] bool is_here() const { return state_->value.has_value(); }
-  /// Returns the value and clears it, so that the next one can arrive.
+  /// Returns the value and clears it, so that the next value can arrive.
   [[nodiscard]] T take() {
     T value = std::move(*state_->value);
     state_->value.reset();

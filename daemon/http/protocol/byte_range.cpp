@@ -11,7 +11,8 @@
 namespace hydroprint::http {
 namespace {
 
-// Parses a number. One that does not fit is treated as beyond the end of every file.
+// Parses a number. If it exceeds 64 bits, returns INT64_MAX, which lies beyond the end of every
+// file.
 std::optional<std::int64_t> byte_number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string_view::npos) return {};
   std::int64_t number = 0;

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = 64 << 10;
 constexpr std::size_t kHeadPiece_bytes = 4 << 10;
-constexpr std::size_t kMostUnparsed_bytes = 32 << 10;  // a header, or the first line of a chunk
+// Limits a header, and the first line of a chunk.
+constexpr std::size_t kMostUnparsed_bytes = 32 << 10;
 constexpr std::uint64_t kMostDropped_bytes = 64 << 10;
 
 using SteadyClock = std::chrono::steady_clock;
@@ -58,7 +59,7 @@ RequestParser::Outcome Exchange::parse() {
 
 Task<Exchange::BeginResult> Exchange::begin_request(bool is_first) {
   if (buffered_.empty()) {
-    buffered_.shrink_to_fit();  // an idle connection holds no memory
+    buffered_.shrink_to_fit();  // so that idle connections do not occupy buffers
     const bool in_time =
         co_await socket_->readable(is_first ? limits_.header_time : limits_.idle_time);
     if (!in_time) co_return BeginResult::kGone;
@@ -101,9 +102,11 @@ Task<Result<std::string>> Exchange::read_body_piece() {
     if (outcome == RequestParser::Outcome::kProgress) continue;
     if (outcome != RequestParser::Outcome::kNeedsMore || buffered_.size() > kMostUnparsed_bytes) {
       break_off();
-      co_return fail(Code::kInvalidArgument,
-                     "the request body is not valid HTTP framing; send it again",
-                     "REQUEST_MALFORMED");
+      co_return fail(
+          Code::kInvalidArgument,
+          "the framing of the request body is not valid HTTP/1.1; check Content-Length or "
+          "the chunk sizes",
+          "REQUEST_MALFORMED");
     }
     const Socket::ReadResult got = co_await read_more(limits_.body_time);
     if (got.bytes > 0) continue;
@@ -137,8 +140,8 @@ Task<Result<std::string>> Exchange::read_body() {
   }
 }
 
-// Sends pieces with a timeout for each, so that a slow client that keeps reading is not
-// disconnected.
+// Sends the bytes in pieces, each with its own timeout, so that a slow client is not disconnected
+// as long as it reads.
 Task<bool> Exchange::send_pieces(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::string_view piece = bytes.substr(0, kPiece_bytes);

@@ -19,34 +19,35 @@ class Exchange {
   /// @param buffered  bytes received but not yet parsed; must outlive this object
   Exchange(std::shared_ptr<Socket> socket, const Limits& limits, std::string& buffered);
 
-  /// Result of waiting for a request.
+  /// Result of waiting for a request; kYes: head() is available.
   enum class BeginResult { kYes, kGone, kTimedOut, kMalformed, kHeaderTooLarge };
   [[nodiscard]] Task<BeginResult> begin_request(bool is_first);
   [[nodiscard]] const Head& head() const { return parser_.head(); }
 
-  /// Reads a piece of the body, at most 64 KiB; empty at the end. Errors: kInvalidArgument,
+  /// Reads the next piece of the body, at most 64 KiB; empty at the end. Errors: kInvalidArgument,
   /// REQUEST_MALFORMED for a malformed body; kCancelled if the client disconnects; kCancelled,
   /// REQUEST_TIMED_OUT on timeout.
   [[nodiscard]] Task<Result<std::string>> read_body_piece();
-  /// Reads the whole body. Returns BODY_TOO_LARGE if it exceeds the limit, immediately if
-  /// Content-Length does.
+  /// Reads the whole body. Returns BODY_TOO_LARGE if the body exceeds Limits::body_bytes, or at
+  /// once if Content-Length exceeds that limit.
   [[nodiscard]] Task<Result<std::string>> read_body();
 
   /// Sends a complete response, without the body for HEAD. Call this or begin_answer() once per
   /// request.
   [[nodiscard]] Task<bool> send(Response response);
-  /// Begins a response whose body is sent with write(); `length` is its size, if known. All three
-  /// functions return false if the client has disconnected.
+  /// Begins a response whose body is sent with write() and ended with end_answer(); `length` is the
+  /// size of the body, if known. These three functions return false if the client has disconnected.
   [[nodiscard]] Task<bool> begin_answer(Response response, std::optional<std::uint64_t> length);
   [[nodiscard]] Task<bool> write(std::string bytes);
   [[nodiscard]] Task<bool> end_answer();
-  /// Closes the connection without ending the response, so the client sees that it is incomplete.
+  /// Closes the connection after this request. A response that has not ended stays incomplete, and
+  /// the client notices that.
   void break_off() { keeps_alive_ = false; }
 
-  /// Reads the rest of the request if it is short. Returns whether another request may follow.
+  /// Reads the rest of the request body if it is short. Returns whether another request may follow.
   [[nodiscard]] Task<bool> end_request();
 
-  /// Returns the status of the response; 0 if none was begun.
+  /// Returns the HTTP status of the response; 0 if no response has begun.
   [[nodiscard]] int status() const { return status_; }
   [[nodiscard]] Socket& socket() { return *socket_; }
   [[nodiscard]] const std::shared_ptr<Socket>& shared_socket() const { return socket_; }
@@ -66,7 +67,7 @@ class Exchange {
   int status_ = 0;
   bool keeps_alive_ = true;
   bool is_chunking_ = false;
-  bool was_invited_ = false;  // 100 Continue was sent, or the client did not ask for it
+  bool was_invited_ = false;  // 100 Continue was sent, or the client does not wait for it
 };
 
 }  // namespace hydroprint::http

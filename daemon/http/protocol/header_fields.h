@@ -12,7 +12,7 @@ struct HeaderField {
   std::string name, value;
 };
 
-/// Header fields in order; names are case-insensitive.
+/// Header fields in the order received or set; names are case-insensitive.
 class HeaderFields {
  public:
   /// Sets a field of a response, replacing fields with that name. Returns false and changes nothing
@@ -24,10 +24,10 @@ class HeaderFields {
   /// Returns the first field with this name.
   [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
   [[nodiscard]] std::size_t count(std::string_view name) const;
-  /// Returns the elements of a comma-separated field, which may occur several times. The views are
-  /// valid as long as the fields.
+  /// Returns the elements of all comma-separated fields with this name. The views are valid as long
+  /// as this object is unchanged.
   [[nodiscard]] std::vector<std::string_view> words(std::string_view name) const;
-  /// Returns whether a comma-separated field has this element.
+  /// Returns whether a comma-separated field contains the element `word`, ignoring case.
   [[nodiscard]] bool lists(std::string_view name, std::string_view word) const;
   [[nodiscard]] const std::vector<HeaderField>& all() const { return fields_; }
 
@@ -41,7 +41,7 @@ class HeaderFields {
 /// Splits `text` at separators into trimmed parts; empty parts are dropped.
 [[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
-/// Removes spaces and tabs at both ends.
+/// Returns `text` without spaces and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 }  // namespace hydroprint::http

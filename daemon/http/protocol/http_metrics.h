@@ -7,13 +7,13 @@
 
 namespace hydroprint::http {
 
-/// The server's own metrics. Thread-safe.
+/// Metrics of the HTTP server. Thread-safe.
 class HttpMetrics {
  public:
   HttpMetrics();
 
   /// @param route  from a fixed set, never a client's text: "JobService/GetJob", "file"
-  /// @param method  an unusual one counts as "other"
+  /// @param method  HTTP method; unusual methods are counted as "other"
   void count_request(const std::string& route, const std::string& method, int status);
   /// @param duration  from the request's header to the end of the response
   void observe_duration(const std::string& route, std::chrono::duration<double> duration);

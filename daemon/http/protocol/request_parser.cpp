@@ -14,7 +14,7 @@ using beast::error_code;
 
 bool is_chunked(std::string_view coding) { return same_name(coding, "chunked"); }
 
-// Determines the framing here, because Beast treats a body as empty unless its last coding is
+// Determines the framing without Beast, which treats a body as empty if the last coding is not
 // "chunked".
 BodyFraming framing_of(const HeaderFields& fields, int version) {
   constexpr std::string_view kCodings = "Transfer-Encoding";
@@ -32,8 +32,7 @@ class BeastParser final : public beast::http::basic_parser<true> {
  public:
   explicit BeastParser(std::uint32_t header_limit_bytes) {
     header_limit(header_limit_bytes);
-    body_limit(
-        std::numeric_limits<std::uint64_t>::max());  // the reader of the body has its own limit
+    body_limit(std::numeric_limits<std::uint64_t>::max());  // Exchange limits the body
   }
   Head head;
   std::string body;
@@ -88,8 +87,8 @@ RequestParser::Outcome RequestParser::put(std::string_view bytes, std::size_t& u
   error_code error;
   const bool had_head = has_head();
   used = impl_->parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);
-  // Beast's own limit stops a header that does not end; a complete header may slightly exceed that
-  // limit.
+  // Beast rejects a header that does not end, but accepts a complete header that slightly exceeds
+  // the limit.
   if (!had_head) impl_->header_bytes += used;
   if (impl_->header_bytes > impl_->header_limit_bytes) return Outcome::kHeaderTooLarge;
   if (!error) return Outcome::kProgress;

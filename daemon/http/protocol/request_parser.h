@@ -12,9 +12,9 @@ namespace hydroprint::http {
 
 /// How the end of a request's body is determined (RFC 9112, 6.1 and 6.3).
 enum class BodyFraming {
-  kLength,         ///< Content-Length; 0 without one
+  kLength,         ///< Content-Length; without it, there is no body
   kChunked,        ///< Transfer-Encoding: chunked
-  kUnknownCoding,  ///< chunked after an unsupported coding, such as gzip
+  kUnknownCoding,  ///< chunked, applied after an unsupported coding such as gzip
   kFaulty,         ///< any other Transfer-Encoding: the end of the body is unknown
 };
 
@@ -22,7 +22,7 @@ enum class BodyFraming {
 struct Head {
   std::string method;
   std::string target;  ///< as received: "/v1/jobs?pageSize=3"
-  int version = 11;    ///< 10 or 11
+  int version = 11;    ///< HTTP version: 10 for HTTP/1.0, 11 for HTTP/1.1
   HeaderFields fields;
   bool keeps_alive = true;
   BodyFraming framing = BodyFraming::kLength;

@@ -11,7 +11,7 @@
 
 namespace hydroprint::http {
 
-/// A whole response or, without a body, the beginning of one.
+/// A whole response, or the head of a response whose body is sent separately.
 struct Response {
   int status = 200;
   HeaderFields fields;
@@ -23,15 +23,15 @@ struct Response {
 
 /// How the end of a response's body is marked.
 struct Framing {
-  /// nullopt: chunked, or until the connection closes for HTTP/1.0.
+  /// Length of the body; nullopt: the body is chunked or, for HTTP/1.0, ends with the connection.
   std::optional<std::uint64_t> length;
   bool keeps_alive = true;
-  bool is_secure = false;  ///< over TLS: instructs browsers to use only TLS afterwards
+  bool is_secure = false;  ///< the connection uses TLS: adds Strict-Transport-Security
 };
 
 /// Returns the status line and header fields, including the security headers common to all
-/// responses. These forbid MIME sniffing, framing and referrers. Caching is forbidden unless
-/// `response` sets Cache-Control.
+/// responses. The security headers forbid MIME sniffing, framing and referrers. Caching is
+/// forbidden unless `response` sets Cache-Control.
 [[nodiscard]] std::string head_text(const Response& response, const Head& request,
                                     const Framing& framing);
 
@@ -40,7 +40,8 @@ struct Framing {
 /// Returns a response with type text/plain.
 [[nodiscard]] Response text_response(int status, std::string text);
 
-/// Converts an error to google.rpc.Status JSON; the HTTP status follows from the code unless given.
+/// Returns the error response, with google.rpc.Status as JSON.
+/// @param status  the HTTP status; by default that of the error's code
 [[nodiscard]] Response refusal(const Error& error, std::optional<int> status = {});
 
 }  // namespace hydroprint::http

@@ -15,10 +15,11 @@ using std::chrono::milliseconds;
 
 /// A connection that transfers bytes, with or without TLS. All functions and callbacks run on the
 /// connection's strand, except post(), which is thread-safe. Each callback is called exactly once,
-/// and never before the function has returned. Buffers must stay valid until then.
+/// after the function has returned. Buffers must stay valid until the callback is called.
 class Socket {
  public:
-  /// Result of a read. `bytes` is 0 at the peer's end, after an error or on timeout.
+  /// Result of a read. `bytes` is 0 if the peer has ended the stream, after an error, or on
+  /// timeout.
   struct ReadResult {
     std::size_t bytes = 0;
     bool timed_out = false;
@@ -43,11 +44,11 @@ class Socket {
   virtual void write(std::string_view bytes, milliseconds timeout,
                      std::function<void(bool)> done) = 0;
 
-  /// Waits for ring(); false on timeout. One earlier ring() is remembered.
+  /// Waits for ring(); false on timeout. A ring() since the previous wait ends the wait at once.
   virtual void wait(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void ring() = 0;
-  /// Calls `gone` once if the peer disconnects or close() is called before unwatch(). Does not
-  /// notice a disconnect behind unread bytes. Must not be combined with reads.
+  /// Calls `gone` once if the peer disconnects or close() is called before unwatch(). A disconnect
+  /// is not noticed while received bytes are unread. Must not be combined with reads.
   virtual void watch(std::function<void()> gone) = 0;
   /// Must not be called during a write.
   virtual void unwatch() = 0;
@@ -65,7 +66,7 @@ class Socket {
   /// Returns whether the connection is encrypted.
   [[nodiscard]] virtual bool is_secure() const = 0;
 
-  // The same functions as awaitables.
+  // The functions above as awaitables.
   Awaiting<OpenResult> opened(milliseconds timeout) {
     return Awaiting<OpenResult>([this, timeout](auto done) { open(timeout, std::move(done)); });
   }

@@ -27,7 +27,7 @@ class TaskPromiseBase {
   void unhandled_exception() noexcept { thrown = std::current_exception(); }
 };
 
-/// The result of a task.
+/// The result of a task, as part of its promise.
 template <class T>
 struct TaskResult {
   std::optional<T> value;
@@ -40,9 +40,9 @@ struct TaskResult<void> {
   void take() const noexcept {}
 };
 
-/// A lazy coroutine that can be awaited once. It resumes where the awaited operation completes; in
-/// this server that is the connection's strand.
-/// GCC 12 destroys the result of `?:` within a co_await twice: store it in a variable first.
+/// A lazy coroutine that can be awaited once. It resumes on the thread on which the awaited
+/// operation completes; in this server that is a thread of the connection's strand. GCC 12 destroys
+/// the result of `?:` within a co_await twice: store it in a variable first.
 template <class T = void>
 class [[nodiscard]] Task {
  public:
@@ -84,7 +84,7 @@ class Awaiting {
 
   bool await_ready() const noexcept { return false; }
   void await_suspend(std::coroutine_handle<> waiting) {
-    // Moved out, since this object may be destroyed at any time after the start.
+    // `start_` is moved out, because this object may be destroyed at any time after the start.
     const std::function<void(Done)> start = std::move(start_);
     start([this, waiting](T value) {
       value_.emplace(std::move(value));

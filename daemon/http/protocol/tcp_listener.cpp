@@ -43,7 +43,7 @@ std::string text_of(const tcp::endpoint& endpoint) {
                                     : fmt::format("{}:{}", host, endpoint.port());
 }
 
-// A transport must not be used after the socket is closed, because its descriptor may then belong
+// The transport must not be used after the socket is closed, because its descriptor may then belong
 // to another connection.
 class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSocket> {
  public:
@@ -160,7 +160,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
   // An operation to retry whenever the socket is ready, and its callback.
   struct Operation {
     std::function<Step()> attempt;
-    std::function<void(Step, bool)> done;  // true on timeout
+    std::function<void(Step, bool)> done;  // the bool is true on timeout
   };
 
   void begin(milliseconds timeout, std::function<Step()> attempt,
@@ -183,7 +183,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
                          [self = shared_from_this(), operation](error_code error) {
                            error ? self->end(*operation, {}) : self->proceed(operation, false);
                          });
-    } else if (is_first) {  // no callback before the function has returned
+    } else if (is_first) {  // posted, because the callback must not precede the return
       post([self = shared_from_this(), operation, step] { self->end(*operation, step); });
     } else {
       end(*operation, step);
@@ -216,7 +216,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
 
   StrandSocket socket_;
   std::unique_ptr<Transport> transport_;
-  StrandTimer deadline_;  // timeout for reading or writing
+  StrandTimer deadline_;  // timeout of the current operation
   StrandTimer wake_timer_;
   std::string peer_;
   std::function<void()> gone_;
@@ -244,7 +244,7 @@ struct TcpListener::Impl {
     const tcp::endpoint endpoint(asio::ip::make_address(host, error),
                                  static_cast<unsigned short>(port));
     if (!error) acceptor.open(endpoint.protocol(), error);
-    // Allows a port that was in use a moment ago, but not one on which another program listens.
+    // Allows a port that was in use a moment ago, but not a port on which another program listens.
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
@@ -263,7 +263,7 @@ struct TcpListener::Impl {
     try {
       auto taken = std::make_shared<TcpSocket>(std::move(socket), identity ? identity() : nullptr);
       taken->post([this, taken] { accepted(taken); });
-    } catch (const std::bad_alloc&) {  // the client has to try again
+    } catch (const std::bad_alloc&) {  // the connection is closed; the client has to try again
     }
   }
 
@@ -275,7 +275,7 @@ struct TcpListener::Impl {
                               take(std::move(socket));
                               return accept();
                             }
-                            // Waits, because no descriptor is free until another connection ends.
+                            // Probably no descriptor is free until another connection ends.
                             retry_timer.expires_after(kDescriptorRetryDelay);
                             retry_timer.async_wait([this](error_code ended) {
                               if (!ended && acceptor.is_open()) accept();

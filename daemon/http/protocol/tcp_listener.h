@@ -18,8 +18,8 @@ class TcpListener {
   using Accepted = std::function<void(std::shared_ptr<Socket>)>;
 
   /// Binds the address; connections are accepted after start().
-  /// @param port      0: any
-  /// @param identity  TLS certificate and key; null: no TLS
+  /// @param port      0: any free port
+  /// @param identity  TLS certificate and key; empty: without TLS
   /// @return kUnavailable if the address cannot be bound, usually because another program uses it
   [[nodiscard]] static Result<std::unique_ptr<TcpListener>> listen(const std::string& host,
                                                                    int port,

@@ -14,8 +14,8 @@ namespace {
 
 using Outcome = Step::Outcome;
 
-// Returns the functions below implement a BIO that uses send() without SIGPIPE, because the signal
-// from OpenSSL's own BIO would end the program when a client disconnects.
+// This and the functions below implement a BIO that calls send() with MSG_NOSIGNAL. OpenSSL's own
+// BIO would raise SIGPIPE when a client disconnects, which would end the program.
 int socket_of(BIO* bio) {
   return static_cast<int>(reinterpret_cast<std::intptr_t>(BIO_get_data(bio)));
 }
@@ -111,7 +111,7 @@ class TlsTransport final : public Transport {
       case SSL_ERROR_ZERO_RETURN:
         return {Outcome::kOver};
       default:
-        is_broken_ = true;  // OpenSSL forbids further calls after this
+        is_broken_ = true;  // after this, OpenSSL forbids further calls
         return {Outcome::kOver};
     }
   }

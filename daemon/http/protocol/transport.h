@@ -24,15 +24,16 @@ class Transport {
  public:
   virtual ~Transport() = default;
 
-  /// Performs the handshake. Must be called first, and repeated until it returns kDone.
+  /// Performs the handshake. Must be called first, and again until it returns kDone.
   virtual Step open() = 0;
-  /// Reads available bytes; kDone if there were any.
+  /// Reads available bytes; kDone with the number of bytes if there are any.
   virtual Step read(char* into, std::size_t size) = 0;
-  /// Writes as many bytes as possible; kDone with their number.
+  /// Writes as many bytes as possible; kDone with the number of bytes written.
   virtual Step write(std::string_view bytes) = 0;
   /// Returns kDone if there is something to read. Consumes nothing.
   virtual Step look() = 0;
-  /// Returns whether decrypted data is buffered. In that case the socket may not become readable.
+  /// Returns whether decrypted data is buffered. If so, there may be data to read although the
+  /// socket does not become readable.
   [[nodiscard]] virtual bool has_some() const = 0;
   /// Sends the peer the end of the stream.
   virtual void end() = 0;

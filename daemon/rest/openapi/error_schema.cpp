@@ -13,14 +13,15 @@ Json text(const std::string& description) {
   return {{"type", "string"}, {"description", description}};
 }
 
-// Schema of the messages in google.rpc's error_details.proto.
+// Returns the schema of the messages in google.rpc's error_details.proto that errors contain.
 Json detail_schema(Schemas& schemas) {
   const Json names = schemas.reference(*v1::ErrorReason_descriptor());
   const Json reason = {{"anyOf", Json::array({names, {{"type", "string"}}})},
                        {"description", "Stable reason for programs; in an ErrorInfo."}};
-  const Json metadata = {{"type", "object"},
-                         {"additionalProperties", {{"type", "string"}}},
-                         {"description", "Parts of the message, for programs; in an ErrorInfo."}};
+  const Json metadata = {
+      {"type", "object"},
+      {"additionalProperties", {{"type", "string"}}},
+      {"description", "Values from the message, for programs; in an ErrorInfo."}};
   const Json violation = {
       {"type", "object"},
       {"properties",
@@ -39,7 +40,7 @@ Json detail_schema(Schemas& schemas) {
             {"domain", text("\"hydroprint\"; in an ErrorInfo.")},
             {"metadata", metadata},
             {"fieldViolations", violations},
-            {"retryDelay", text("\"10s\": when to try again; in a RetryInfo.")}}},
+            {"retryDelay", text("Time to wait before a retry: \"10s\"; in a RetryInfo.")}}},
           {"required", Json::array({"@type"})},
           {"additionalProperties", true}};
 }

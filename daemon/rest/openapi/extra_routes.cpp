@@ -25,7 +25,7 @@ OtherRoute upload_state() {
           .operation = "HeadUpload",
           .tag = "AssetService",
           .summary = "Progress of an upload, as headers",
-          .description = "GetUpload returns the same and more, as JSON.",
+          .description = "GetUpload returns this information and more, as JSON.",
           .parameters = {in_path("upload", "Id of the upload.")},
           .content_type = {},
           .answers = {{204, "The upload is not complete.", "", "", upload_headers()}}};
@@ -41,9 +41,9 @@ OtherRoute upload_bytes() {
           .tag = "AssetService",
           .summary = "Sends bytes, in order",
           .description =
-              "Bytes received before the connection breaks are kept; ask for the offset with\n"
-              "HEAD. After the last byte the hash is checked; the asset exists only if it\n"
-              "matches. Fails with the same errors as UploadChunk.",
+              "Bytes received before the connection breaks are kept; HEAD returns the offset\n"
+              "at which to continue. After the last byte the hash is checked; the asset exists\n"
+              "only if it matches. Fails with the same errors as UploadChunk.",
           .parameters = {in_path("upload", "Id of the upload."), std::move(offset)},
           .content_type = "application/octet-stream",
           .answers = {{200,
@@ -78,14 +78,14 @@ OtherRoute download(const std::string& http_method) {
                                "Range applies only if the file has this ETag."),
                      in_header("If-None-Match", "string", "ETag of the copy that the client has."),
                      {"inline", "query", "string", false,
-                      "\"1\": show the file instead of saving it."}},
+                      "\"1\": browsers display the file instead of saving it."}},
       .content_type = {},
       .answers = {{200, "The file.", type, "", headers},
                   {206, "The requested bytes.", type, "", headers},
                   {304, "The file has the ETag in If-None-Match.", "", "", {}}}};
 }
 
-// Returns a route without parameters and with one kind of answer.
+// Returns a route without parameters and with one kind of response.
 OtherRoute plain_get(std::string path, std::string operation, const std::string& summary,
                      std::string description, std::string content_type) {
   return {.http_method = "GET",

@@ -19,7 +19,7 @@ struct OtherAnswer {
   int status = 200;
   std::string description;
   std::string content_type;  ///< empty: no body
-  std::string schema;        ///< full name of a message; empty: bytes or text
+  std::string schema;        ///< full name of the message in the body; empty: bytes or text
   std::vector<OtherParameter> headers;
 };
 

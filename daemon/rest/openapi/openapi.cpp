@@ -42,7 +42,7 @@ Json path_parameter(const std::string& name, const std::string& description) {
   return parameter;
 }
 
-// Comment on the field that contains segment `at`.
+// Returns the comment on the field whose value contains segment `at`; empty if there is none.
 std::string comment_at(const Route& route, std::size_t at) {
   for (std::size_t i = 0; i < route.path.variables.size(); ++i) {
     const Variable& variable = route.path.variables[i];
@@ -233,10 +233,10 @@ class Document {
               {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};
     }
     std::string description =
-        "Server-sent events; the `data` of each is one such message. An event `end` means that no\n"
-        "more will come. If something goes wrong after the stream began, an event `error` with an\n"
-        "Error ends it.";
-    if (is_resumable(method)) description += " The `id` of each is its `seq`.";
+        "Server-sent events; the `data` of each event is one message of this schema. An event\n"
+        "`end` means that no more events follow. If an error occurs after the stream has begun,\n"
+        "an event `error` with an Error ends the stream.";
+    if (is_resumable(method)) description += " The `id` of each event is the `seq` of its message.";
     return {{"description", std::move(description)},
             {"content", {{"text/event-stream", {{"schema", std::move(schema)}}}}}};
   }

@@ -19,7 +19,7 @@ namespace pb = google::protobuf;
 using Json = nlohmann::ordered_json;
 using Type = pb::FieldDescriptor::CppType;
 
-// Name within the package: "Job.State".
+// Returns the name within the package: "Job.State".
 template <class Descriptor>
 std::string short_name(const Descriptor& descriptor) {
   const std::string& package = descriptor.file()->package();
@@ -34,7 +34,7 @@ bool is_oneof_member(const pb::FieldDescriptor& field) {
   return field.real_containing_oneof() != nullptr;
 }
 
-// Returns whether answers always contain the field.
+// Returns whether responses always contain the field.
 bool is_always_there(const pb::FieldDescriptor& field) {
   return field.is_repeated() || !field.has_presence();
 }
@@ -48,7 +48,8 @@ bool is_required(const pb::FieldDescriptor& field) {
   return rules_of(field).required() && rules_of(field).unless().empty();
 }
 
-// Whether the sent and the answered schema differ, for the message or one inside it.
+// Returns whether the schemas for requests and responses differ, for the message or for a message
+// inside it.
 bool differs(const pb::Descriptor& message, std::set<const pb::Descriptor*>& seen) {
   if (!seen.insert(&message).second) return false;
   for (int i = 0; i < message.field_count(); ++i) {
@@ -144,8 +145,8 @@ void add_limits(const v1::FieldRules& rules, Json& schema) {
   if (is_number && rules.has_min()) schema["minimum"] = number_of(rules.min());
   if (is_number && rules.above_min()) schema["exclusiveMinimum"] = true;
   if (is_number && rules.has_max()) schema["maximum"] = number_of(rules.max());
-  // JSON Schema counts characters, the rule counts UTF-8 bytes. Longer text is rejected in either
-  // case.
+  // JSON Schema counts characters, the rule counts UTF-8 bytes. A text beyond maxLength also breaks
+  // the rule, because each character has at least one byte.
   if (is_text && rules.max_bytes() > 0) {
     schema["maxLength"] = rules.max_bytes();
     schema["x-max-bytes"] = rules.max_bytes();
@@ -211,7 +212,7 @@ Json Schemas::reference(const pb::Descriptor& message, Way way) {
   const bool goes_both_ways = way == Way::kSent && answered_.count(&message) > 0;
   if (goes_both_ways && differs(message, seen)) name += "Input";
   if (!all_.contains(name)) {
-    all_[name] = nullptr;  // it may refer to itself
+    all_[name] = nullptr;  // a placeholder, because the schema may refer to itself
     all_[name] = object(message, way, {});
   }
   return reference_to(name);

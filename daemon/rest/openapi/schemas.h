@@ -16,19 +16,20 @@ namespace hydroprint::rest {
 /// Requests must contain the required fields and satisfy the other field rules.
 enum class Way { kSent, kAnswered };
 
-/// Schemas of OpenAPI 3.0.3 (components.schemas) for messages and enums, with the protos' comments.
+/// Schemas of OpenAPI 3.0.3 (components.schemas) for messages and enums, with the comments of the
+/// .proto files.
 class Schemas {
  public:
   /// Marks a message as the response of a route. Call this for all responses before the first
   /// reference().
   void expect_answer(const google::protobuf::Descriptor& message);
 
-  /// Returns a reference to the schema of a message, and adds the schema and those that it needs.
-  /// If the directions differ, the schemas are "Job" for responses and "JobInput" for requests.
+  /// Returns a reference to the schema of a message, and adds the schema and the schemas that it
+  /// needs. If requests and responses differ, the schemas are "JobInput" and "Job".
   nlohmann::ordered_json reference(const google::protobuf::Descriptor& message, Way way);
 
-  /// Returns the same for a request whose path contains the given fields, which the schema omits.
-  /// It replaces a schema that is stored under the message's name.
+  /// Same as reference(), for a request whose path contains the given fields, which the schema
+  /// omits. Replaces a schema that is stored under the name of the message.
   nlohmann::ordered_json reference_without(const google::protobuf::Descriptor& message,
                                            const std::set<std::string>& fields);
 
@@ -52,7 +53,7 @@ class Schemas {
                                 const std::set<std::string>& without);
   nlohmann::ordered_json of_value(const google::protobuf::FieldDescriptor& field, Way way);
 
-  std::set<const google::protobuf::Descriptor*> answered_;  // including nested messages
+  std::set<const google::protobuf::Descriptor*> answered_;  // responses and messages inside them
   nlohmann::ordered_json all_ = nlohmann::ordered_json::object();
 };
 

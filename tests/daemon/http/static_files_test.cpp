@@ -79,7 +79,7 @@ TEST_F(HttpStaticFiles, CachedFilesAreNotSentAgain) {
 TEST_F(HttpStaticFiles, WithoutAClientAPageExplainsHowToBuildIt) {
   const auto files = StaticFiles::load(folder.path() / "none");
   ASSERT_TRUE(files);
-  EXPECT_NE(files->answer(asked("/")).content().find("is not built"), std::string::npos);
+  EXPECT_NE(files->answer(asked("/")).content().find("was not found"), std::string::npos);
   EXPECT_EQ(files->answer(asked("/app.js")).status, 404);
 }
 

@@ -28,9 +28,9 @@ TEST(Body, HoldsAllFieldsOneFieldOrNone) {
 
 TEST(Body, FieldsOfPathOrQueryAreRefused) {
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"inner":{"text":"x"}})"),
-            "JSON_INVALID inner.text: is already set by the path");
+            "JSON_INVALID inner.text: is already set by the path; leave it out");
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"small":6})"),
-            "JSON_INVALID small: is already set by the path");
+            "JSON_INVALID small: is already set by the path; leave it out");
   for (const char* text : {R"({"text":"a"})", "x", "[]", "{}{}", "null"}) {
     EXPECT_EQ(read("GET", "/r/query", text).substr(0, 45),
               "JSON_INVALID request body: must be empty; put")
@@ -108,7 +108,8 @@ TEST(Body, UnknownFieldsAreRefusedByName) {
       {R"({"truth":"true"})", "truth: must be true or false"},
       {R"({"boolValue":"true"})", "boolValue: must be true or false"},
       {R"({"small":true})", "small: must not be true or false"},
-      {R"({"large":9007199254740993.0})", "large: must be in quotes to be exact"},
+      {R"({"large":9007199254740993.0})",
+       "large: must be in quotes, because a JSON number may lose digits"},
       {R"({"real":"0x1p3"})", "real: must be a finite number"},
       {R"({"real":"NaN"})", "real: must be a finite number"},
       {R"({"real":"-Infinity"})", "real: must be a finite number"},

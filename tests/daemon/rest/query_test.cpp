@@ -58,18 +58,18 @@ TEST(Query, InvalidValuesAreRefusedByName) {
   const std::map<std::string, std::string> cases = {
       {"truth=1", R"(truth: "1" is not "true" or "false")"},
       {"truth=True", R"(truth: "True" is not "true" or "false")"},
-      {"small=2147483648", R"(small: "2147483648" is not a number that fits, int32)"},
-      {"small=", R"(small: "" is not a number that fits, int32)"},
-      {"small=+1", R"(small: " 1" is not a number that fits, int32)"},
-      {"small=1.0", R"(small: "1.0" is not a number that fits, int32)"},
-      {"small=0x10", R"(small: "0x10" is not a number that fits, int32)"},
-      {"smallCount=-1", R"(small_count: "-1" is not a number that fits, uint32)"},
-      {"real=nan", R"(real: "nan" is not a number that fits, double)"},
-      {"real=Infinity", R"(real: "Infinity" is not a number that fits, double)"},
-      {"real=1e999", R"(real: "1e999" is not a number that fits, double)"},
+      {"small=2147483648", R"(small: "2147483648" is not a valid number of type int32)"},
+      {"small=", R"(small: "" is not a valid number of type int32)"},
+      {"small=+1", R"(small: " 1" is not a valid number of type int32)"},
+      {"small=1.0", R"(small: "1.0" is not a valid number of type int32)"},
+      {"small=0x10", R"(small: "0x10" is not a valid number of type int32)"},
+      {"smallCount=-1", R"(small_count: "-1" is not a valid number of type uint32)"},
+      {"real=nan", R"(real: "nan" is not a valid number of type double)"},
+      {"real=Infinity", R"(real: "Infinity" is not a valid number of type double)"},
+      {"real=1e999", R"(real: "1e999" is not a valid number of type double)"},
       {"doubleValue=NaN", R"(double_value: "NaN" is not a DoubleValue)"},
-      {"single=1e39", R"(single: "1e39" is not a number that fits, float)"},
-      {"reals=1&reals=inf", R"(reals: "inf" is not a number that fits, double)"},
+      {"single=1e39", R"(single: "1e39" is not a valid number of type float)"},
+      {"reals=1&reals=inf", R"(reals: "inf" is not a valid number of type double)"},
       {"colour=GREEN", R"(colour: "GREEN" is not a name or number of Colour)"},
       {"colour=red", R"(colour: "red" is not a name or number of Colour)"},
       {"colour=77", R"(colour: "77" is not a name or number of Colour)"},
@@ -82,8 +82,8 @@ TEST(Query, InvalidValuesAreRefusedByName) {
       {"small_count=1&smallCount=1", "small_count: is given twice"},
       {"inner.text=a&inner.text=b", "inner.text: is given twice"},
       {"time=1970-01-01T00:00:00Z&time=1970-01-01T00:00:00Z", "time: is given twice"},
-      {"left=a&right=1", "right: excludes left, which is also given"},
-      {"both.text=a&left=", "left: excludes both, which is also given"},
+      {"left=a&right=1", "right: excludes left, which is also given; give only one of them"},
+      {"both.text=a&left=", "left: excludes both, which is also given; give only one of them"},
       {"name=x", "name: Everything has no such field"},
       {"Text=x", "Text: Everything has no such field"},
       {"=x", ": Everything has no such field"},
@@ -117,9 +117,9 @@ TEST(Query, InvalidUrlsAreRefused) {
 
 TEST(Query, FieldsOfPathOrBodyAreRefused) {
   EXPECT_EQ(read("GET", "/r/single/a?text=a"),
-            "PARAMETER_INVALID text: is already set by the path");
+            "PARAMETER_INVALID text: is already set by the path; leave it out");
   EXPECT_EQ(read("PUT", "/r/all/a/1?inner.text=a"),
-            "PARAMETER_INVALID inner.text: is already set by the path");
+            "PARAMETER_INVALID inner.text: is already set by the path; leave it out");
   EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?inner.text=a"),
             "PARAMETER_INVALID inner.text: belongs in the body");
@@ -134,7 +134,7 @@ TEST(Path, VariablesMayHaveAnyFieldType) {
   EXPECT_EQ(read("GET", "/r/typed/yes/-7/0.5/RED/AA=="),
             R"(PARAMETER_INVALID truth: "yes" is not "true" or "false")");
   EXPECT_EQ(read("GET", "/r/typed/true/-7/nan/RED/AA=="),
-            R"(PARAMETER_INVALID real: "nan" is not a number that fits, double)");
+            R"(PARAMETER_INVALID real: "nan" is not a valid number of type double)");
   EXPECT_EQ(read("GET", "/r/several/things/a%2Fb/and/c%2Fd:verb"),
             R"({"text":"things/a%2Fb","whatElse":"c/d"})");
   EXPECT_EQ(read("DELETE", "/r/several/things/7"), R"({"text":"things/7"})");

@@ -46,7 +46,7 @@ TEST(Routes, InvalidRulesAreRefusedAtStart) {
       {"OwnVerb", "no GET, PUT"},
       {"NoPattern", "no GET, PUT"},
       {"PartOfAnswer", "response_body is not supported"},
-      {"StopWithField", "stops motion, so its path must hold the field seq"},
+      {"StopWithField", "stops motion, so its path must contain the field seq"},
       {"StructRequest", "contains Any, Struct"},
       {"AnyRequest", "contains Any, Struct"},
       {"DeepRequest", "contains Any, Struct"},
