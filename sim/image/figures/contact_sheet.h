@@ -34,9 +34,9 @@ struct Range {
 struct Scale {
   std::string label;
   Range range;
-  /// SRGB-coded colour for a position in the range, [0, 1].
+  /// Returns the sRGB-coded colour for a position in the range, from 0 (low) to 1 (high).
   std::function<Eigen::Vector3f(double)> coded;
-  std::string hatched;  ///< label of hatch(); empty: not used
+  std::string hatched;  ///< legend label of areas with hatch(); empty: not in the legend
 };
 
 /// Draws a legend into the space that draw_sheet() kept for it. Returns the errors of

@@ -18,7 +18,7 @@ constexpr int kMaxSide_px = 16384;
 int wrap_index(int i, int size) { return ((i % size) + size) % size; }
 
 /// Returns the tile's corners in the texture, in texels, y down, shifted by whole textures so that
-/// the tile starts in the first one. NaN if the model has no coordinates.
+/// the tile starts in the first one. NaN if the triangle has no texture coordinates.
 Corners texel_corners(const mesh::Model& model, const mesh::Surface& surface,
                       const flow::MappedTriangle& tile, int width, int height) {
   const auto barycentric = model_barycentric(surface, tile);

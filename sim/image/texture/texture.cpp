@@ -243,7 +243,7 @@ Texture::Sum Texture::trilinear(const Eigen::Vector2d& folded, const Footprint& 
   Sum sum = bilinear(folded, footprint.level, chart);
   if (footprint.blend <= 0) return sum;
   const Sum coarse = bilinear(folded, footprint.level + 1, chart);
-  // Each level is weighted by its fraction, even if little of it belongs to the chart.
+  // The weight of a level does not depend on how many of its texels belong to the chart.
   if (coarse.weight <= 0) return sum;
   if (sum.weight <= 0) return coarse;
   sum.colour = sum.colour / sum.weight * (1 - footprint.blend) +
@@ -281,7 +281,8 @@ Eigen::Vector3f Texture::sample(const Eigen::Vector2d& uv, const Footprint& foot
 
 Eigen::Vector3f Texture::finer(const Eigen::Vector2d& uv, const Footprint& footprint,
                                const Chart& chart) const {
-  // Coarse texels around a narrow chart may all belong to its neighbours; finer ones may not.
+  // All coarse texels around a narrow chart may belong to its neighbours. Finer levels can still
+  // have texels of the chart.
   const Eigen::Vector2d folded = fold(uv, chart);
   for (int level = footprint.level - 1; level >= 0; --level) {
     const Sum sum = bilinear(folded, level, chart);
