@@ -18,7 +18,9 @@ using Points = pcl::PointCloud<Point>;
 
 constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr double kFarthest_mm = 1e4;       ///< PCL's search aborts the program on NaN and infinity
+/// Steps with a larger translation are dropped, because PCL's search aborts the program on NaN and
+/// infinity.
+constexpr double kFarthest_mm = 1e4;
 constexpr double kLever_mm = 50;           ///< lever arm by which turns are compared with shifts
 constexpr double kLeastEigenvalue = 2e-3;  ///< smallest eigenvalue used, relative to the largest
 /// PCL stops when the squared step is smaller, in rad^2 and in mm^2.

@@ -23,7 +23,7 @@ struct PoseFit {
   Pose X_CB = Pose::Identity();
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< camera frame; origin of the twists
   /// Covariance of the twist (camera frame) between X_CB and the true pose, in radians and mm. It
-  /// includes noise of the depths and, along weak directions, the nominal pose's uncertainty.
+  /// includes the noise of the depths and, along weak directions, the nominal pose's uncertainty.
   Matrix6 covariance = Matrix6::Zero();
   /// Derivative of that twist with respect to the camera's unknowns. `covariance` does not include
   /// them; their contribution is camera_gain * camera_gain^T.

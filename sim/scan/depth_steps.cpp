@@ -28,8 +28,8 @@ struct Steps {
   }
 };
 
-/// Returns the largest distance of a depth from the nearest step. Stops as soon as it reaches
-/// `enough`.
+/// Returns the largest distance of a depth from the nearest step. Stops as soon as a distance
+/// reaches `enough`.
 double worst_mm(const std::vector<double>& depths, const Steps& steps, double enough) {
   double out = 0;
   for (const double depth : depths) {

@@ -102,7 +102,7 @@ const Volume::Voxel* Volume::voxel(const Vector3i& cell) const {
 }
 
 std::optional<double> Volume::distance_mm(const Vector3d& p_W) const {
-  // In voxels, relative to the centre of the first voxel.
+  // The position in voxels, relative to the centre of the first voxel.
   const Vector3d at = ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;
   const Vector3i low = at.array().floor().cast<int>();
   const Vector3d share = at - low.cast<double>();

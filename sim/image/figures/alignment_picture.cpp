@@ -12,7 +12,7 @@ namespace hydroprint::image {
 namespace {
 
 constexpr double kPoint_mm = 0.7;  ///< radius of the disc that shows a point
-constexpr double kDeep_mm = 3;     ///< points deeper below the surface are on the far side: hidden
+constexpr double kDeep_mm = 3;     ///< points deeper below the surface (far side) are hidden
 constexpr double kShown = 0.98;    ///< share of the points that the scale covers
 constexpr int kSteps = 5;          ///< number of steps of the scale in each direction
 const Eigen::Vector3f kObject(0.45F, 0.45F, 0.44F);  // linear

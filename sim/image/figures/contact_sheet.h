@@ -21,8 +21,8 @@ inline constexpr int kLegend_px = 110;
                                           const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
 
-/// Returns the colour (linear) of a pattern of diagonal stripes in two greys at a sample; it marks
-/// areas without a value.
+/// Returns the linear colour, at a sample, of diagonal stripes in two greys. The stripes mark areas
+/// without a value.
 [[nodiscard]] Eigen::Vector3f hatch(int x, int y);
 
 /// Range of a scale, and the step between its labels.

@@ -43,7 +43,7 @@ class SeenObject {
   struct Sample {
     int tile = -1;               ///< index of the visible tile; -1: no tile, or background
     float towards = -HUGE_VALF;  ///< position along the view, mm; -infinity: background
-    float light = 1;             ///< shading by a lamp over the viewer's left shoulder
+    float light = 1;             ///< brightness factor, for a lamp over the viewer's left shoulder
     [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
   };
   /// A visible tile and its samples.
@@ -84,7 +84,7 @@ class SeenObject {
   Eigen::Isometry3d X_VO_;  ///< object to view, mm; the origin is the object's middle
   int width_, height_;
   double samples_per_mm_;
-  double depth_step_mm_;  ///< jumps in depth beyond this are outlines
+  double depth_step_mm_;  ///< larger jumps in depth are drawn as outlines
   std::vector<Sample> samples_;
   /// The visible tiles, the first index of each in `by_tile_`, and the samples of all tiles.
   std::vector<int> tile_numbers_, first_of_tile_, by_tile_;

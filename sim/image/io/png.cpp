@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< size before compression
+constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< of a band, before compression
 constexpr double kMmPerInch = 25.4;
 
 /// Filters of the PNG specification (section 9.2): difference from the same byte of the pixel on

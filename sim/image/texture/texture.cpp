@@ -11,8 +11,8 @@ namespace {
 constexpr int kMaxProbes = 16;
 constexpr int kRowsAtOnce = 32;
 
-/// Returns the mean of up to four texels, using only those of their most frequent chart (0: none of
-/// them has a chart).
+/// Returns the mean of up to four texels, using only those of their most frequent chart. Uses all
+/// of them if none has a chart.
 Texel mean(const std::array<const Texel*, 4>& children, int count) {
   std::uint16_t chart = 0;
   int most = 0;
@@ -156,7 +156,7 @@ Texture::Footprint Texture::footprint(const Eigen::Matrix2d& uv_per_sample) cons
     footprint.level = static_cast<int>(levels_.size()) - 1;
     return footprint;
   }
-  // The longer axis of the ellipse: leading right singular vector.
+  // The longer axis of the footprint's ellipse: leading right singular vector.
   const Eigen::Matrix2d gram = texels.transpose() * texels;
   const double angle = 0.5 * std::atan2(2 * gram(0, 1), gram(0, 0) - gram(1, 1));
   const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));

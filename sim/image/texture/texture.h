@@ -12,12 +12,12 @@
 
 namespace hydroprint::image {
 
-/// An image that can be sampled at any size: linear light, a mipmap pyramid, and averages that stay
-/// within one chart.
+/// An image that can be sampled at any resolution: linear light, a mipmap pyramid, and averages
+/// that stay within one chart.
 class Texture {
  public:
-  /// Uses the texels as level 0 and builds the other levels: 8 bytes per texel, plus a third for
-  /// the pyramid.
+  /// Uses the texels as level 0 and builds the other levels. Takes 8 bytes per texel, plus a third
+  /// for the pyramid.
   [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
                                              const Context& context);
 

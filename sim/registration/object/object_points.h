@@ -9,7 +9,7 @@ namespace hydroprint::registration {
 /// Parts of a scan that cannot belong to the object; film frame.
 struct Surroundings {
   double clear_mm = 16;  ///< points below this height above the water are water, film or bars
-  /// Axis of the vertical cylinder that contains the gripper (x, y).
+  /// Position (x, y) of the axis of the vertical cylinder that contains the gripper.
   Eigen::Vector2d gripper_mm = Eigen::Vector2d::Zero();
   double gripper_radius_mm = 28;
   double gripper_from_mm = 1e9;  ///< height of the gripper's lower end; default: no gripper
