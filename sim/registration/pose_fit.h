@@ -50,8 +50,8 @@ struct FitOptions {
 /// normals. Each point is weighted by the inverse variance of its noise and by Tukey's weight. The
 /// initial pose must be within a few mm and degrees of the true pose. Only the last iterations use
 /// the camera's fixed pattern to decide which points lie on the surface. The covariance accounts
-/// for noise that is correlated within patches of pixels. Returns kFailedPrecondition if fewer than
-/// 30 points lie on the surface.
+/// for noise that is correlated within patches of pixels. Returns kFailedPrecondition
+/// (TOO_FEW_POINTS) if fewer than 30 points can be paired with the surface.
 [[nodiscard]] Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
                                        const scan::Camera& camera, const Pose& start_CB,
                                        const Pose& nominal_CB, const FitOptions& options,
