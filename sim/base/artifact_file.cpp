@@ -22,7 +22,8 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
                   "DISK_FULL");
     case EFBIG:
       return fail(Code::kResourceExhausted,
-                  start + "beyond the limit on file sizes. Raise it (ulimit -f)", "FILE_LIMIT");
+                  start + "beyond the limit on file sizes. Raise the limit (ulimit -f)",
+                  "FILE_LIMIT");
     case ENOENT:
     case ENOTDIR:
       return fail(Code::kNotFound, start + "no such folder. Create it or choose another");

@@ -31,8 +31,8 @@ struct JsonLimits {
 /// The value at `key`; null if `object` is not an object or lacks the key.
 [[nodiscard]] const nlohmann::json& json_at(const nlohmann::json& object, const char* key);
 
-/// The finite number, string or unsigned integer at `key`; nullopt if there is a value of another
-/// type or none.
+/// The finite number, string or unsigned integer at `key`; nullopt if the key is missing or its
+/// value has another type.
 [[nodiscard]] std::optional<double> json_number(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::string> json_string(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::uint64_t> json_unsigned(const nlohmann::json& object,

@@ -42,16 +42,17 @@ std::string header_objection(const std::vector<std::string_view>& cells,
   if (cells == wanted) return {};
   for (const std::string_view name : wanted) {
     const bool is_there = std::find(cells.begin(), cells.end(), name) != cells.end();
-    if (!is_there) return fmt::format("not the header: no column {}", name);
+    if (!is_there) return fmt::format("wrong header: no column {}", name);
   }
-  return "not the header";
+  return "wrong header";
 }
 
 /// Appends a row's numbers. @return the fault in the row; empty if there is none
 std::string add_row(const std::vector<std::string_view>& cells,
                     const std::vector<std::string_view>& names, std::vector<double>& values) {
   if (cells.size() != names.size()) {
-    return fmt::format("not {} finite numbers but {} cells", names.size(), cells.size());
+    return fmt::format("not {} finite numbers: the number of cells is {}", names.size(),
+                       cells.size());
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const char* end = cells[i].data() + cells[i].size();

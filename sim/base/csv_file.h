@@ -24,8 +24,8 @@ struct CsvTable {
 
 /// Reads a CSV file of at most 128 MiB: a header, then rows with one finite number per column.
 /// Ignores blanks around cells and empty lines at the end. Returns an error with file, line and
-/// remedy if the header is not `header` ("t_s,x_mm"), if a row is malformed, or if there are more
-/// than `most_rows` rows.
+/// remedy if the header is not `header` (such as "t_s,x_mm"), if a row is malformed, or if there
+/// are more than `most_rows` rows.
 [[nodiscard]] Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view header,
                                         std::size_t most_rows);
 

@@ -15,7 +15,8 @@ struct FileDigest {
   std::int64_t size_bytes = 0;
 };
 
-/// Reads a regular file once. Returns the errors of open_input_file(), and kCancelled.
+/// Computes the hash and size of a regular file in one pass. Returns the errors of
+/// open_input_file(), and kCancelled.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const Context& context = {});
 

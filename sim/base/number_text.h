@@ -12,10 +12,10 @@ namespace hydroprint {
 /// A share for people: "12.3 %".
 [[nodiscard]] std::string percent(double share);
 
-/// "312 B", "4.2 MB".
+/// A size for people: "312 B", "4.2 MB".
 [[nodiscard]] std::string format_bytes(std::int64_t bytes);
 
-/// "0:07", "12:30", "1:02:03"; "0:00" for negative times.
+/// A time for people: "0:07", "12:30", "1:02:03"; "0:00" if it is negative.
 [[nodiscard]] std::string format_duration(std::chrono::seconds time);
 
 /// The shortest text that reads back as the same number, for files: "0.1", "1e+05".

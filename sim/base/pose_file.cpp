@@ -40,7 +40,7 @@ Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::
 Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohmann::json& json) {
   HP_ASSIGN_OR_RETURN(const Eigen::Vector3d xyz_mm, read_vector<3>(where, json));
   if (!(xyz_mm.cwiseAbs().maxCoeff() <= kMaxTranslation_mm)) {
-    return fail(Code::kOutOfRange, where + ": beyond 1e6 mm. Is it in mm?");
+    return fail(Code::kOutOfRange, where + ": beyond 1e6 mm. Check that it is in mm");
   }
   return xyz_mm;
 }

@@ -37,7 +37,7 @@ std::string_view code_name(Code code) {
 }
 
 ExitStatus exit_status(const Error& error) {
-  // A full disk, in contrast, counts as bad input.
+  // Other lack of resources, such as a full disk, counts as bad input.
   if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;
   switch (error.code) {
     case Code::kCancelled:

@@ -72,7 +72,7 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 
 }  // namespace hydroprint
 
-// A declaration cannot stand in parentheses.
+// The macros' `declaration` cannot be put in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 
 /// Evaluates a Result. On error, returns it from the enclosing function; otherwise binds the value.

@@ -12,7 +12,7 @@ struct FreeContext {
   void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
 
-// These calls can only run out of memory: the algorithm is built in and accepts any bytes.
+// These calls can fail only if memory runs out: the algorithm is built in and accepts any bytes.
 void require(bool done) {
   if (!done) throw std::bad_alloc();
 }

@@ -20,9 +20,9 @@ namespace hydroprint {
 /// messages are always one line, whatever the file contains.
 [[nodiscard]] Result<toml::table> read_toml_file(const std::filesystem::path& path);
 
-/// Reads values from a TOML file and rejects all other keys. It keeps the first error, with file,
-/// line, key and remedy; values read after an error are meaningless. Read every value, then call
-/// finish(). Copies refer to the same file. Include in .cpp files only.
+/// Reads values from a TOML file and rejects all other keys. The reader keeps the first error, with
+/// file, line, key and remedy; values read after an error are meaningless. Read every value, then
+/// call finish(). Copies refer to the same file. Include in .cpp files only.
 class TomlReader {
  public:
   [[nodiscard]] static Result<TomlReader> open(const std::filesystem::path& path);
@@ -41,7 +41,8 @@ class TomlReader {
   std::size_t choice(std::string_view key, const std::vector<std::string_view>& words,
                      std::optional<std::size_t> fallback = {});
 
-  /// Returns a table, or an array with at least one table; empty if the key is missing.
+  /// Returns a table, or the tables of an array. A missing key is an error; the result is then
+  /// empty.
   TomlReader table(std::string_view key);
   std::vector<TomlReader> tables(std::string_view key);
 

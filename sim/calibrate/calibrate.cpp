@@ -56,7 +56,7 @@ std::vector<double> error_map(const Task& task, const registration::ObjectPose& 
   return registration::error_at(points_F, object.centre_mm, object.covariance);
 }
 
-/// Adds to the error a possible reason why no object was found.
+/// Adds to the error that the gripper may have been taken for part of the object.
 tl::unexpected<Error> without_gripper(const Task& task, Error error) {
   if (!task.gripper_mm && error.reason != "NO_OBJECT")
     error.message +=
@@ -71,8 +71,8 @@ Warnings all_warnings(const Task& task, const Calibration& found) {
   out.insert(out.end(), camera.begin(), camera.end());
   if (!found.water)
     out.push_back({"water_not_seen",
-                   "too little water is in view to measure its level: "
-                   "the layout's z = 0 is used instead",
+                   "too little water is in view to measure its level. "
+                   "The layout's z = 0 is used instead",
                    "water"});
   return out;
 }

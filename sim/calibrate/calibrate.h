@@ -19,10 +19,11 @@ struct Task {
   registration::CameraCalibration camera;
   RigLayout layout;
   mesh::Surface surface;  ///< surface of the object, frame O
-  /// nullopt: model orientation, box centred on the film.
+  /// nullopt: the model's own orientation, with its bounding box centred on the film.
   std::optional<Pose> nominal_FO;
-  std::optional<double> gripper_mm;          ///< height of the gripper's lower end above z = 0
-  Eigen::Vector2d half_film_mm{105, 148.5};  ///< the region in which to look for water
+  std::optional<double> gripper_mm;  ///< height of the gripper's lower end above z = 0
+  /// Half the width and height of the region in which the water is measured.
+  Eigen::Vector2d half_film_mm{105, 148.5};
 };
 
 /// The object's pose, and estimates of its accuracy.

@@ -47,7 +47,7 @@ Result<Listing> read_listing(const std::filesystem::path& path) {
   }
   const auto is_side = [](int px) { return px >= kLeastSide_px && px <= kMostSide_px; };
   const auto is_view = [](double rad) { return rad > 0 && rad < kWidestView_rad; };
-  if (!is_side(out.width) || !is_side(out.height)) return wrong("size out of range");
+  if (!is_side(out.width) || !is_side(out.height)) return wrong("image size out of range");
   if (!is_view(out.horizontal_fov_rad) || !is_view(out.vertical_fov_rad))
     return wrong("field of view out of range");
   if (out.files.empty()) return wrong("lists no frames");

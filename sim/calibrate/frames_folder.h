@@ -21,8 +21,9 @@ struct Frames {
 inline constexpr std::size_t kMostFrames = 300;
 
 /// Reads the first `most` frames of a folder written by hydroprint-capture: frames.json and 16-bit
-/// PNGs in mm. Returns the errors of read_json_file() and read_grey16(), kInvalidArgument if
-/// frames.json is malformed, and kDataLoss if the size of an image differs from frames.json.
+/// PNGs with depths in mm. Returns the errors of read_json_file() and read_grey16(),
+/// kInvalidArgument if frames.json is malformed, and kDataLoss if the size of an image differs from
+/// frames.json.
 [[nodiscard]] Result<Frames> read_frames(const std::filesystem::path& folder,
                                          const Context& context, std::size_t most = kMostFrames);
 

@@ -15,7 +15,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little && sizeof(float) == 4);
 
 constexpr int kLargestPatch_px = 64;
-constexpr float kMaxOffset = 100, kMaxShared = 100;  ///< in standard deviations of the depth
+/// Limits, in units of DepthNoise::constant_sigma_mm() (see FixedPattern).
+constexpr float kMaxOffset = 100, kMaxShared = 100;
 
 template <class T>
 std::string text_of(const T* values, std::size_t count) {

@@ -11,12 +11,14 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kLeastFrames = 3;  ///< number of frames that must have seen a surface from 0.8 m
+/// A surface must have the weight of this many frames that saw it from kUsualDepth_mm.
+constexpr double kLeastFrames = 3;
 constexpr double kUsualDepth_mm = 800;
-/// Range of a rig's contents, above the water.
+/// Range of heights above the water within which parts of a rig are kept.
 constexpr double kLowest_mm = -40, kHighest_mm = 600;
 
-/// Returns the noise-free view of the camera at its first frame.
+/// Returns what the camera sees of the volume from the pose of its first frame, as a fused frame of
+/// `frames` frames.
 scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens,
                              const scan::DepthNoise& noise, std::size_t frames) {
   const std::size_t pixels = seen.points.size();

@@ -38,9 +38,9 @@ class Icp {
 [[nodiscard]] std::vector<SurfacePoint> thinned(std::span<const scan::ScanPoint> points,
                                                 std::size_t most);
 
-/// Creates an Icp for a target. It is in a module that the first call loads, because PCL depends on
-/// 30 libraries that take a tenth of a second to load, and most runs of the worker do not need it.
-/// Returns the errors of module_symbol().
+/// Creates an Icp for a target. The implementation is in a module that the first call loads,
+/// because PCL depends on 30 libraries that take a tenth of a second to load, and most runs of the
+/// worker do not need PCL. Returns the errors of module_symbol().
 [[nodiscard]] Result<std::unique_ptr<const Icp>> make_icp(std::span<const SurfacePoint> target);
 
 }  // namespace hydroprint::registration

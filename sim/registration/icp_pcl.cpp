@@ -18,10 +18,13 @@ using Points = pcl::PointCloud<Point>;
 
 constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr double kFarthest_mm = 1e4;       ///< PCL's search aborts the program on NaN and infinity
+/// Steps with a larger translation are dropped, because PCL's search aborts the program on NaN and
+/// infinity.
+constexpr double kFarthest_mm = 1e4;
 constexpr double kLever_mm = 50;           ///< lever arm by which turns are compared with shifts
 constexpr double kLeastEigenvalue = 2e-3;  ///< smallest eigenvalue used, relative to the largest
-constexpr double kSettled = 1e-8;  ///< PCL's limit of squared steps, in rad^2 and mm^2 alike
+/// PCL stops when the squared step is smaller, in rad^2 and in mm^2.
+constexpr double kSettled = 1e-8;
 
 Points::Ptr to_pcl(std::span<const SurfacePoint> points) {
   auto out = pcl::make_shared<Points>();
@@ -105,7 +108,8 @@ class PclIcp final : public Icp {
  public:
   explicit PclIcp(std::span<const SurfacePoint> target)
       : target_(to_pcl(target)), tree_(pcl::make_shared<pcl::search::KdTree<Point>>()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // starts that fail are expected
+    // No warnings, because it is normal that some starts fail.
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     tree_->setInputCloud(target_);
   }
 

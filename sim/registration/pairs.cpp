@@ -11,8 +11,8 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kLeastCosine = 0.2;      ///< cosine between normal and line of sight
-constexpr double kLeastAlike = 0.4;       ///< cosine between the normals of surface and scan
+constexpr double kLeastCosine = 0.2;  ///< minimum cosine between normal and line of sight
+constexpr double kLeastAlike = 0.4;   ///< minimum cosine between the normals of surface and scan
 constexpr double kSurfaceError_mm = 0.1;  ///< error of meshes and of pixel positions
 constexpr std::size_t kAtOnce = 256;
 

@@ -29,8 +29,8 @@ struct Pair {
 
 /// How the surface point for a scan point is chosen.
 enum class Pairing {
-  kNearest,  ///< converges from far away, but is biased towards the nearer side of a crease
-  kOnRay,    ///< where the pixel's ray meets the surface, because depths err along rays
+  kNearest,  ///< nearest point: converges from far away, but is biased to the near side of a crease
+  kOnRay,    ///< the point where the pixel's ray meets the surface, because depths err along rays
 };
 
 /// Pairs points with the surface. A pair requires a distance of at most `reach_mm`, similar normals

@@ -13,12 +13,13 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr int kTrials = 400;
-constexpr std::size_t kLooked = 2000;  ///< points that each trial counts
+constexpr std::size_t kLooked = 2000;  ///< each trial tests about this many points
 constexpr double kNear_mm = 5;
 constexpr double kLeastShare = 0.05;
 constexpr double kLeastUpright = 0.766;  ///< cosine of 40 degrees
 constexpr int kRefinements = 5;
-constexpr double kLevel = 0.9;  ///< least cosine between the plane's normal and a level point's
+/// Minimum cosine between the plane's normal and that of a level point.
+constexpr double kLevel = 0.9;
 constexpr double kBin_mm = 3;
 constexpr double kLevelShare = 0.01;  ///< minimum size of a level area, as a fraction of all points
 constexpr std::size_t kMostLevels = 6;

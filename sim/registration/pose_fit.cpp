@@ -19,7 +19,8 @@ constexpr double kLeastReach_mm = 5;
 constexpr double kReachShrinks = 0.8;
 constexpr double kSettled_mm = 1e-3, kNearlySettled_mm = 0.1;
 constexpr double kMostStep_mm = 10;
-constexpr double kNil = 1e-12;      ///< information below this fraction of the largest is rounding
+/// Information below this fraction of the largest is rounding error.
+constexpr double kNil = 1e-12;
 constexpr double kOnSurface = 0.3;  ///< robust weight above which a point counts as on the surface
 
 /// The noise for detecting outliers: that of a camera with an unknown fixed pattern (kUsual), or
@@ -48,7 +49,7 @@ WeightedResiduals weighted_residuals(std::span<const Pair> pairs, NoiseModel noi
 
 /// The normal equations along their eigenvectors.
 struct Split {
-  Matrix6 directions;  ///< columns
+  Matrix6 directions;  ///< eigenvectors, one per column
   Vector6 information;
   Vector6 sigma_mm;
   Eigen::Array<bool, 6, 1> weak;
@@ -65,8 +66,8 @@ struct Split {
   }
 };
 
-/// @param weak_count  number of weak directions once it is final: those with the largest errors.
-///              Directions without any information are weak in addition
+/// @param weak_count  number of weak directions once it is final; the directions with the largest
+///                    errors are weak. Directions without any information are always weak
 Split split(const Normals& normals, double weak_sigma_mm,
             std::optional<Eigen::Index> weak_count = {}) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
@@ -154,12 +155,11 @@ class Fitter {
     HP_ASSIGN_OR_RETURN(out.pairs,
                         pair_up(shape_, points_, pose, pairing_at(reach), reach, context_));
     if (out.pairs.size() < kFewestPairs)
-      return fail(
-          Code::kFailedPrecondition,
-          fmt::format(
-              "only {} scan points lie near the surface. Check that it is in the camera's view",
-              out.pairs.size()),
-          "TOO_FEW_POINTS");
+      return fail(Code::kFailedPrecondition,
+                  fmt::format("only {} scan points lie near the surface. Check that the surface is "
+                              "in the camera's view",
+                              out.pairs.size()),
+                  "TOO_FEW_POINTS");
     out.residuals = weighted_residuals(out.pairs, noise);
     out.centre = pose * shape_.centroid();
     out.normals = normal_equations(out.pairs, out.residuals.weights, out.centre, length_mm_);
@@ -204,8 +204,8 @@ class Fitter {
     return out;
   }
 
-  /// Uses kUsual, so that the criteria for a match do not depend on how well the camera is
-  /// calibrated.
+  /// Sets the number, share and rms distance of the points on the surface. Uses kUsual, so that the
+  /// criteria for a match do not depend on how well the camera is calibrated.
   void judge(std::span<const Pair> pairs, PoseFit& out) const {
     const WeightedResiduals usual = weighted_residuals(pairs, NoiseModel::kUsual);
     double squares_mm = 0, squares = 0;

@@ -23,7 +23,7 @@ struct PoseFit {
   Pose X_CB = Pose::Identity();
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< camera frame; origin of the twists
   /// Covariance of the twist (camera frame) between X_CB and the true pose, in radians and mm. It
-  /// includes noise of the depths and, along weak directions, the nominal pose's uncertainty.
+  /// includes the noise of the depths and, along weak directions, the nominal pose's uncertainty.
   Matrix6 covariance = Matrix6::Zero();
   /// Derivative of that twist with respect to the camera's unknowns. `covariance` does not include
   /// them; their contribution is camera_gain * camera_gain^T.
@@ -47,10 +47,11 @@ struct FitOptions {
 };
 
 /// Fits a pose by least squares over the distances of scan points to a surface, measured along its
-/// normals. Each point is weighted by its noise and by Tukey's weight. The initial pose must be
-/// within a few mm and degrees. Only the last iterations use the camera's fixed pattern to decide
-/// which points lie on the surface. The covariance accounts for noise that is correlated within
-/// patches of pixels. Returns kFailedPrecondition if fewer than 30 points lie on the surface.
+/// normals. Each point is weighted by the inverse variance of its noise and by Tukey's weight. The
+/// initial pose must be within a few mm and degrees of the true pose. Only the last iterations use
+/// the camera's fixed pattern to decide which points lie on the surface. The covariance accounts
+/// for noise that is correlated within patches of pixels. Returns kFailedPrecondition
+/// (TOO_FEW_POINTS) if fewer than 30 points can be paired with the surface.
 [[nodiscard]] Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
                                        const scan::Camera& camera, const Pose& start_CB,
                                        const Pose& nominal_CB, const FitOptions& options,

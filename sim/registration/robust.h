@@ -4,7 +4,8 @@
 
 namespace hydroprint::registration {
 
-/// Estimates the ratio of the residuals' spread to their noise from their median; at least 1.
+/// Estimates the ratio of the residuals' spread to their noise from the median of their absolute
+/// values; at least 1.
 /// @param sigmas_off  residuals in units of their noise
 [[nodiscard]] double spread_of(std::vector<double> sigmas_off);
 

@@ -21,7 +21,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kSamplesForMoments = 4000;
-constexpr double kClear_mm = 0.05;  ///< gap to the surface in visibility tests
+constexpr double kClear_mm = 0.05;  ///< lines of sight end at this distance from the surface
 
 Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Eigen::Vector3d to_eigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }

@@ -30,7 +30,7 @@ class Shape {
   /// is none.
   [[nodiscard]] std::optional<SurfacePoint> hit(const Eigen::Vector3d& from_B,
                                                 const Eigen::Vector3d& towards_B) const;
-  /// Returns true if no part of the surface lies between the eye and a point on the surface.
+  /// Returns true if the surface faces the eye at a point, and no part of it lies in between.
   [[nodiscard]] bool is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const;
   /// Returns about `count` points, distributed evenly over the area. Deterministic.
   [[nodiscard]] std::vector<SurfacePoint> samples(std::size_t count) const;

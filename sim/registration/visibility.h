@@ -26,7 +26,7 @@ struct Sight {
 
 /// Compares samples with depths.
 /// @param depth         mean depths as reported by the camera
-/// @param tolerance_mm  along the line of sight
+/// @param tolerance_mm  along the optical axis
 [[nodiscard]] Sight look_at(std::span<const SurfacePoint> visible_C, const scan::DepthFrame& depth,
                             const scan::Lens& lens, double tolerance_mm);
 

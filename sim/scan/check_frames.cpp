@@ -24,7 +24,8 @@ Status check_frames(std::span<const DepthFrame> frames) {
               "depth frame {} has a different size. Record all frames in the same camera mode", i));
   }
   const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
-  if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black
+  if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing))
+    return {};  // callers report CAMERA_BLACK
   const auto same = [&](const DepthFrame& frame) { return frame.depth_mm == first.depth_mm; };
   if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
     return fail(

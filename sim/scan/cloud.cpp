@@ -12,9 +12,9 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr double kJump_mm = 12;         ///< depth difference of neighbours at the edge of a surface
-constexpr double kSameSurface_mm = 15;  ///< largest depth difference within the pixels of a normal
+constexpr double kSameSurface_mm = 15;  ///< maximum depth difference of pixels for a normal
 constexpr int kReach_px = 5, kEvery_px = 2;  ///< every second pixel, because neighbours share noise
-constexpr int kFewest = 6;                   ///< pixels for a normal
+constexpr int kFewest = 6;                   ///< minimum number of pixels for a normal
 
 bool on_a_surface(const PointGrid& grid, int u, int v) {
   if (!grid.holds(u, v)) return false;

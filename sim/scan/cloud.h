@@ -13,15 +13,16 @@ namespace hydroprint::scan {
 struct ScanPoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the camera
-  double reported_mm = 0;  ///< depth without the fixed pattern, before scaling by the lens
+  double reported_mm = 0;  ///< depth without the fixed pattern, before scaling (Lens::depth_scale)
   /// Standard deviation of the noise that differs between frames, along the optical axis.
   double sigma_mm = 0;
-  /// Of the constant noise that a patch shares, along the optical axis.
+  /// Standard deviation of the constant noise that the pixels of a patch share, along the optical
+  /// axis.
   double constant_sigma_mm = 0;
   double usual_constant_mm = 0;  ///< constant_sigma_mm for an unknown fixed pattern
-  int u = 0;                     ///< pixel
-  int v = 0;
-  int patch = 0;  ///< index of its patch, a square of DepthNoise::patch_px pixels
+  int u = 0;                     ///< column of the pixel
+  int v = 0;                     ///< row of the pixel
+  int patch = 0;                 ///< index of its patch, a square of DepthNoise::patch_px pixels
 };
 
 /// The points of a fused frame.

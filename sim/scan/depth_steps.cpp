@@ -6,16 +6,18 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kUsualScale_mm = 575.8 * 75 * 8;  ///< px, mm, steps per pixel
+/// Focal length in px, baseline in mm, steps per px.
+constexpr double kUsualScale_mm = 575.8 * 75 * 8;
 constexpr int kScalesAside = 1000, kShifts = 25;
 constexpr double kScaleStep = 5e-5, kShiftStep = 1.0 / kShifts;
 constexpr double kMostOff = kScalesAside * kScaleStep;
 constexpr std::size_t kMost_mm = 10000;
-constexpr std::size_t kLeastPixels = 8;   ///< pixels; fewer may be outliers
-constexpr double kHalf = 0.5 + 1e-4;      ///< rounding error in mm
+constexpr std::size_t kLeastPixels = 8;   ///< depths of fewer pixels may be outliers
+constexpr double kHalf = 0.5 + 1e-4;      ///< maximum rounding error in mm
 constexpr double kCoarseSlack_mm = 0.12;  ///< extra error allowed in the coarse search
 constexpr double kFinest = 1e-7;
-/// Negative logarithm of the probability (1e-11) that wrong steps explain all depths.
+/// Minimum of confidence(): negative logarithm of the probability (1e-11) that wrong steps explain
+/// all depths.
 constexpr double kLeastConfidence = 25;
 
 struct Steps {
@@ -26,8 +28,8 @@ struct Steps {
   }
 };
 
-/// Returns the largest distance of a depth from the nearest step. Stops as soon as it reaches
-/// `enough`.
+/// Returns the largest distance of a depth from the nearest step. Stops as soon as a distance
+/// reaches `enough`.
 double worst_mm(const std::vector<double>& depths, const Steps& steps, double enough) {
   double out = 0;
   for (const double depth : depths) {
@@ -54,7 +56,7 @@ double confidence(const std::vector<double>& depths) {
   return out;
 }
 
-/// Finds the steps that are nearest to all depths by a coarse grid search and repeated refinement
+/// Finds the steps with the smallest worst_mm() by a coarse grid search and repeated refinement
 /// around the best.
 Steps closest(const std::vector<double>& depths) {
   Steps best{kUsualScale_mm, 0};

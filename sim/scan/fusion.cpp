@@ -11,13 +11,15 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kDarkShare = 0.02;  ///< the image is black if fewer pixels have a depth
-/// Fraction of pixels that may vary beyond the noise, at edges.
+/// The image counts as black if a smaller fraction of its pixels has a depth.
+constexpr double kDarkShare = 0.02;
+/// Maximum fraction of pixels whose depth varies beyond the noise, as it does at edges.
 constexpr double kUnsteadyShare = 0.05;
 constexpr double kUnsteadySigmas = 2.5;
 constexpr double kOutlierSigmas = 4;
 constexpr double kMadToSigma = 1.4826;
-constexpr std::size_t kFewFrames = 5;  ///< fewest frames for a standard deviation
+/// Minimum number of frames from which a standard deviation is estimated.
+constexpr std::size_t kFewFrames = 5;
 
 struct Pixel {
   double mean_mm = 0;
@@ -78,7 +80,7 @@ Pixel fuse_pixel(std::span<const DepthFrame> frames, std::size_t i, std::vector<
 Status judge(std::size_t pixels, std::size_t valid, std::size_t unsteady) {
   if (static_cast<double>(valid) < kDarkShare * static_cast<double>(pixels))
     return fail(Code::kFailedPrecondition,
-                "the camera sees nothing. Uncover it, or move it 0.6 to 1.2 m away",
+                "the camera sees nothing. Uncover it, or move it to a distance of 0.6 to 1.2 m",
                 "CAMERA_BLACK");
   if (static_cast<double>(unsteady) > kUnsteadyShare * static_cast<double>(valid))
     return fail(Code::kFailedPrecondition,

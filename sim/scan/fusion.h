@@ -22,8 +22,8 @@ struct FusedFrame {
 /// Computes the mean depth of each pixel for which at least half of the frames have a depth. Depths
 /// beyond four standard deviations from the median are ignored. Uses the mean because depth is
 /// quantised in steps as large as its noise, and a median would always be one of the steps. If the
-/// camera's steps can be found in the frames (find_depth_steps), their rounding to whole mm is
-/// undone first. Returns kInvalidArgument if there are no frames or more than 65535, or if they
+/// camera's steps can be found in the frames (find_depth_steps), the rounding of depths to whole mm
+/// is undone first. Returns kInvalidArgument if there are no frames or more than 65535, or if they
 /// differ in size. Returns kFailedPrecondition with a reason: CAMERA_BLACK if hardly any pixel has
 /// a depth, CAMERA_FROZEN if there are several frames and all are identical, CAMERA_MOVED if depths
 /// vary far more than their noise.

@@ -6,7 +6,7 @@
 namespace hydroprint::scan {
 
 /// The lens model of a depth camera. Camera frame C: origin in the centre of projection, x to the
-/// right and y down in the image, z along the axis. A point at (x, y) = (X/Z, Y/Z), with
+/// right and y down in the image, z along the optical axis. A point at (x, y) = (X/Z, Y/Z), with
 /// r2 = x^2 + y^2, is seen at pixel (cx + fx x_d, cy + fy y_d), with Brown's distortion
 ///   x_d = x (1 + k1 r2 + k2 r2^2) + 2 p1 x y + p2 (r2 + 2 x^2)
 ///   y_d = y (1 + k1 r2 + k2 r2^2) + p1 (r2 + 2 y^2) + 2 p2 x y.
@@ -40,7 +40,7 @@ struct Lens {
     return ray(u, v) * true_depth_mm(reported_mm);
   }
 
-  /// fx, fy, cx, cy, k1, k2, p1, p2, depth_scale.
+  /// Returns fx, fy, cx, cy, k1, k2, p1, p2 and depth_scale, in this order.
   [[nodiscard]] Vector parameters() const;
   [[nodiscard]] Lens with(const Vector& parameters) const;
   /// Returns the derivatives of point() with respect to the parameters, from central differences.

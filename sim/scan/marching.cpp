@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Tetrahedra around the cube's diagonal. Of any two corners of a tetrahedron, one has all bits of
-/// the other.
+/// Tetrahedra around the cube's diagonal, with corners numbered as in cube_corner(). Of any two
+/// corners of a tetrahedron, the number of one contains all bits of the other's.
 constexpr std::array<std::array<int, 4>, 6> kTetrahedra = {
     {{0, 1, 3, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 6, 7}, {0, 4, 5, 7}, {0, 1, 5, 7}}};
 
@@ -40,8 +40,8 @@ void MarchingTetrahedra::add(const Vector3i& cell, const std::array<double, 8>& 
   for (const auto& corners : kTetrahedra) add_tetrahedron(cell, values, corners);
 }
 
-/// Returns the point between two corners where the value is zero. All cubes at this edge share the
-/// point.
+/// Returns the index of the point between two corners where the value is zero. All cubes at this
+/// edge share the point.
 int MarchingTetrahedra::cut(const Vector3i& cell, const std::array<double, 8>& values, int a,
                             int b) {
   if ((a & b) != a) std::swap(a, b);

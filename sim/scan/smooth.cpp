@@ -8,7 +8,8 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr int kReach_patches = 2;
-constexpr double kBendSigmas = 3;  ///< deviation of a depth from the mean of two opposite ones
+/// Maximum deviation of a depth from the mean of two opposite ones, in standard deviations.
+constexpr double kBendSigmas = 3;
 
 /// Returns the offsets to one pixel in each surrounding patch, but only one of each opposite pair.
 std::vector<Eigen::Vector2i> half_of_neighbours(const DepthNoise& noise) {
@@ -35,7 +36,7 @@ struct Inverse {
   }
 };
 
-/// @param most_bend  largest difference of a pixel's inverse depth from the mean of an opposite
+/// @param most_bend  maximum difference of a pixel's inverse depth from the mean of an opposite
 /// pair
 float mean_around(const Inverse& inverse, const std::vector<Eigen::Vector2i>& neighbours, int u,
                   int v, float most_bend) {

@@ -18,9 +18,11 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr double kFarthest_mm = 1500;   ///< farther depths belong to the room, not to the rig
-constexpr double kRoundAbout_mm = 300;  ///< margin around the first frame for later frames
-constexpr double kDarkShare = 0.02;     ///< the image is black if fewer pixels have a depth
-constexpr std::size_t kMostLost = 10;   ///< frames in a row: a third of a second
+constexpr double kRoundAbout_mm = 300;  ///< margin of the volume around the first frame's points
+/// The image counts as black if a smaller fraction of its pixels has a depth.
+constexpr double kDarkShare = 0.02;
+/// This many lost frames in a row fail the sweep: a third of a second at 30 frames/s.
+constexpr std::size_t kMostLost = 10;
 constexpr std::size_t kTakeEvery = 3;  ///< all frames are registered, but only every third is fused
 constexpr Volume::Options kToFollow{3, 12, 60000};
 constexpr const char* kLost = "CAMERA_LOST";
@@ -39,8 +41,8 @@ Status check(const SweepTask& task) {
   return task.camera.pattern.check_for(first.width_px, first.height_px, task.noise);
 }
 
-/// Returns frames one by one. Undoes rounding, subtracts the camera's fixed pattern and drops
-/// depths that are too large.
+/// Provides single frames. Undoes rounding, subtracts the camera's fixed pattern and drops depths
+/// of kFarthest_mm and more.
 class Source {
  public:
   explicit Source(const SweepTask& task) : task_(task), steps_(find_depth_steps(task.frames)) {}
@@ -79,7 +81,8 @@ Result<Eigen::AlignedBox3d> box_of(const DepthFrame& first, const Optics& optics
   }
   if (static_cast<double>(seen) < kDarkShare * static_cast<double>(optics.rays.size()))
     return fail(Code::kFailedPrecondition,
-                "the camera sees nothing. Uncover it, and begin 0.6 to 1.2 m away", "CAMERA_BLACK");
+                "the camera sees nothing. Uncover it, and begin at a distance of 0.6 to 1.2 m",
+                "CAMERA_BLACK");
   const Eigen::Vector3d about = Eigen::Vector3d::Constant(kRoundAbout_mm);
   return Eigen::AlignedBox3d(box.min() - about, box.max() + about);
 }

@@ -14,7 +14,7 @@ namespace hydroprint::scan {
 struct Path {
   std::vector<Pose> X_WC;       ///< camera pose for each frame
   std::vector<bool> is_placed;  ///< false: not registered; the pose is that of the previous frame
-  /// Rms distance, along rays, of smoothed frames from the volume built before them.
+  /// Rms distance, along rays, of each smoothed frame from the volume of the frames before it.
   double rms_mm = 0;
 
   [[nodiscard]] std::size_t lost() const {

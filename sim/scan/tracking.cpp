@@ -15,8 +15,8 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kBlock_px = 4;
 constexpr double kSteepest = 3;    ///< largest slope of a surface to the image plane
-constexpr int kFewestOfBlock = 8;  ///< pixels
-constexpr double kReach_mm = 3;    ///< step of the volume's gradients
+constexpr int kFewestOfBlock = 8;  ///< minimum number of pixels with a depth
+constexpr double kReach_mm = 3;    ///< distance of the points from which a gradient is computed
 constexpr double kHuberSigmas = 2;
 constexpr double kLever_mm = 200;  ///< lever arm by which turns are converted to mm
 constexpr double kSettled_mm = 0.005;
@@ -26,15 +26,16 @@ constexpr std::size_t kChunk = 512;
 // Limits for accepting a pose.
 constexpr double kLeastShare = 0.5;  ///< fraction of the points that must be matched
 constexpr double kMostSigma_mm = 1;
-constexpr double kMostRmsSigmas = 0.8;  ///< limit for the matches; smoothed frames have 0.3 to 0.4
-constexpr double kStillMoves_mm = 0.2;  ///< step of the last iteration
+/// Maximum rms distance of the matches in standard deviations; smoothed frames have 0.3 to 0.4.
+constexpr double kMostRmsSigmas = 0.8;
+constexpr double kStillMoves_mm = 0.2;  ///< maximum step of the last iteration
 
 /// Normal equations for a small motion (translation, turn times kLever_mm) of matched points.
 struct Equations {
   Matrix6d A = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
   double squares_mm2 = 0;
-  double squares = 0;  ///< sum of squares, in units of the variance
+  double squares = 0;  ///< sum of squared distances, in units of their variances
   int matched = 0;
 
   void add(const Vector3d& lever, const Volume::Slope& slope, double sigma_mm) {

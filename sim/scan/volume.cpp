@@ -12,10 +12,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-// The range of a depth camera, along rays.
+// Range of a depth camera.
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
-constexpr double kWidestTangent = 0.8;  ///< a lens's polynomial is not valid beyond this
+/// Largest |x/z| and |y/z| of a point; the polynomial of a lens is not valid beyond this.
+constexpr double kWidestTangent = 0.8;
 /// Fraction of the truncation above which distances are unusable.
 constexpr double kSaturated = 0.95;
 /// Largest slope of distances on a real surface, 1 / cos(66 degrees). Beyond the edge of a surface,
@@ -101,7 +102,7 @@ const Volume::Voxel* Volume::voxel(const Vector3i& cell) const {
 }
 
 std::optional<double> Volume::distance_mm(const Vector3d& p_W) const {
-  // In voxels, relative to the centre of the first voxel.
+  // The position in voxels, relative to the centre of the first voxel.
   const Vector3d at = ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;
   const Vector3i low = at.array().floor().cast<int>();
   const Vector3d share = at - low.cast<double>();
@@ -209,7 +210,8 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
                    const Pose& X_WC, const Context& context) {
   if (frame.width_px != optics.lens.width_px || frame.height_px != optics.lens.height_px)
     return fail(Code::kInvalidArgument,
-                "the lens calibration is for another image size. Calibrate the camera");
+                "the lens calibration is for another image size. Calibrate the camera in its "
+                "current mode");
   const Pose X_CW = X_WC.inverse();
   std::vector<char> marked(blocks_.size(), 0);
   HP_RETURN_IF_ERROR(mark_surface(frame, optics, X_WC, marked));
@@ -226,7 +228,8 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
 /// Returns the distance along a ray of unit direction to the first surface that it hits from the
 /// front.
 std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d& along) const {
-  std::optional<std::pair<double, double>> before;  // way, and the positive distance there
+  // Distance along the ray, and the positive value of the volume there.
+  std::optional<std::pair<double, double>> before;
   for (double way = kNear_mm; way < kFar_mm;) {
     const Vector3d p = from + way * along;
     if (block_of(cell_of(p)) == nullptr) {

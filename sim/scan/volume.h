@@ -50,7 +50,7 @@ class Volume {
   /// truncation.
   [[nodiscard]] std::optional<Slope> slope(const Eigen::Vector3d& p_W, double reach_mm) const;
 
-  /// Returns the points that a camera at X_WV would see, in its own frame.
+  /// Returns the points that a camera at X_WV would see, in that camera's frame V.
   [[nodiscard]] Result<PointGrid> look(const Optics& optics, const Pose& X_WV,
                                        const Context& context) const;
 

@@ -76,7 +76,7 @@ struct Font::Impl {
   FT_Library library = nullptr;
   FT_Face face = nullptr;
   double x_height = 0;  ///< height of a lower-case x, in the font's units
-  std::mutex mutex;     ///< a face has room for one glyph
+  std::mutex mutex;     ///< guards `face`, which has room for one glyph only
 };
 
 Font::Font(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -96,7 +96,8 @@ Result<Font> Font::open(const std::filesystem::path& file) {
   auto impl = std::make_unique<Impl>();
   impl->bytes = std::move(*bytes);
   if (FT_Init_FreeType(&impl->library) != 0) {
-    return fail(Code::kInternal, "FreeType: cannot be started; out of memory", "OUT_OF_MEMORY");
+    return fail(Code::kInternal, "FreeType: cannot be started: out of memory. Free some memory",
+                "OUT_OF_MEMORY");
   }
   if (FT_New_Memory_Face(impl->library, reinterpret_cast<const FT_Byte*>(impl->bytes.data()),
                          static_cast<FT_Long>(impl->bytes.size()), 0, &impl->face) != 0) {
@@ -107,7 +108,7 @@ Result<Font> Font::open(const std::filesystem::path& file) {
                          impl->glyph_of('x') != 0 && impl->glyph_of(kReplacement) != 0;
   if (is_usable) impl->x_height = impl->extent(impl->glyph_of('x')).high.y();
   if (!(impl->x_height > 0)) {
-    return font_failure(file, "has no outlines of the letter x and of U+FFFD");
+    return font_failure(file, "lacks an outline of the letter x or of U+FFFD");
   }
   return Font(std::move(impl));
 }
@@ -155,7 +156,7 @@ std::string Font::shortened(std::string_view text, double width) const {
 }
 
 Coverage Font::rasterize(std::uint32_t glyph, const Vector2d& origin_px, double x_height_px) const {
-  constexpr double kSubpixels = 64;      // FreeType's 26.6
+  constexpr double kSubpixels = 64;      // FreeType's 26.6 fixed-point numbers
   constexpr double kMostPixels = 16384;  // a side of FreeType's raster is below 32768
   const std::scoped_lock lock(impl_->mutex);
   FT_Outline* const points = impl_->outline(glyph);

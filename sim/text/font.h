@@ -14,7 +14,7 @@ namespace hydroprint::text {
 
 /// A glyph on a line. Lengths are in heights of a lower-case x.
 struct PlacedGlyph {
-  char32_t character = 0;   ///< as drawn: U+FFFD for a character that the font lacks
+  char32_t character = 0;   ///< drawn character: U+FFFD for one that the font lacks
   std::uint32_t glyph = 0;  ///< its index in the font
   double left = 0;          ///< its start on the baseline
 };
@@ -65,8 +65,9 @@ class Font {
   /// Lays out UTF-8 on one line.
   [[nodiscard]] Line lay_out(std::string_view text) const;
 
-  /// Shortens the text to a width in heights of a lower-case x. If it is too wide, returns as much
-  /// of its beginning as fits with an ellipsis (U+2026); empty if not even that fits.
+  /// Shortens the text to a width in heights of a lower-case x. If the text is too wide, returns as
+  /// much of its beginning as fits together with an ellipsis (U+2026); empty if the ellipsis alone
+  /// is too wide.
   [[nodiscard]] std::string shortened(std::string_view text, double width) const;
 
   /// Rasterizes a glyph whose origin is at this position in the picture, x to the right, y down.

@@ -24,8 +24,8 @@ using Face = Owned<hb_face_t, hb_face_destroy>;
 using Input = Owned<hb_subset_input_t, hb_subset_input_destroy>;
 using Plan = Owned<hb_subset_plan_t, hb_subset_plan_destroy>;
 
-/// A PDF refers to glyphs by number, so it does not need tables for selecting and placing glyphs,
-/// nor names.
+/// A PDF refers to glyphs by number, so it needs neither the tables for selecting and placing
+/// glyphs nor the table of names.
 constexpr std::array<hb_tag_t, 5> kUnneeded = {
     HB_TAG('G', 'S', 'U', 'B'), HB_TAG('G', 'P', 'O', 'S'), HB_TAG('G', 'D', 'E', 'F'),
     HB_TAG('k', 'e', 'r', 'n'), HB_TAG('n', 'a', 'm', 'e')};

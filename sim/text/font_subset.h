@@ -13,7 +13,7 @@ namespace hydroprint::text {
 /// A font that contains a few glyphs of another font.
 struct FontSubset {
   std::string file;  ///< TrueType, without instructions for hinting
-  /// Index of each glyph, by its index in the original font.
+  /// Index of each glyph in `file`, keyed by its index in the original font.
   std::map<std::uint32_t, std::uint32_t> glyphs;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 10;
 
-/// Characters that would change how a terminal shows the message.
+/// Returns true for characters that would change how a terminal shows the message.
 bool is_invisible(char32_t c) {
   return (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
          (c >= 0x2060 && c <= 0x206F) || (c >= 0xFE00 && c <= 0xFE0F) || c == 0xFEFF ||

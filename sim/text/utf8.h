@@ -5,7 +5,7 @@
 
 namespace hydroprint::text {
 
-/// The replacement character U+FFFD, for characters that cannot be drawn.
+/// The replacement character, for bytes that are not UTF-8 and characters that cannot be drawn.
 inline constexpr char32_t kReplacement = 0xFFFD;
 
 /// Decodes UTF-8. Each malformed sequence becomes one U+FFFD, split as the Unicode Standard

@@ -27,11 +27,11 @@ constexpr std::array<std::string_view, 17> kArtifacts = {
     "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
     "surface_map.ply", "wrinkles.png"};
 
-/// Returns true for the files of which every run writes one; they mark a folder as an artifact
-/// folder.
+/// Returns true for report.json and frames.json. Every run writes one of them, so they mark a
+/// folder as an artifact folder.
 bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
 
-/// Whether a run may write a file with this name.
+/// Returns whether a run may write a file with this name.
 bool is_artifact_name(std::string_view name) {
   // `validate`, `print-image` and cameras write numbered pictures, sheets and frames.
   return is_record(name) ||
@@ -97,7 +97,7 @@ tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
                                            "). Choose another --out");
 }
 
-/// Syncs a folder, so that DIR either has all its files or does not exist after a power cut.
+/// Syncs a folder, so that after a power cut DIR either has all its files or is as it was before.
 void sync_folder(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;
@@ -178,7 +178,7 @@ Status move_into_place(const fs::path& partial, const fs::path& dir) {
 
 Result<OutFolder> OutFolder::plan(const fs::path& dir) {
   std::error_code error;
-  // Replaces the folder itself, not a link to it.
+  // Follows links, so that the folder itself is replaced and not a link to it.
   fs::path target = fs::weakly_canonical(fs::absolute(dir, error), error);
   if (!target.has_filename()) target = target.parent_path();
   if (error || !target.has_filename()) {
@@ -220,7 +220,7 @@ Status OutFolder::create() {
     }
     created_ = true;
     lock_ = open_locked(partial_);
-    // The file system does not support locks.
+    // Continues without a lock if the file system does not support locks.
     if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;
     if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -9,7 +9,7 @@
 namespace hydroprint {
 
 /// Calls a function periodically on its own thread: immediately, then one period after each return.
-/// The destructor waits for a call in progress; no call follows it.
+/// The destructor waits for a call in progress. There are no calls after it.
 class PeriodicThread {
  public:
   /// @param task  must not throw

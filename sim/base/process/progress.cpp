@@ -8,7 +8,7 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr double kInterval_s = 0.1;
-// Earlier, an estimate would only reflect the first stage.
+// Conditions for an estimate of the time left. An earlier one would only reflect the first stage.
 constexpr double kFirstEstimate_s = 0.3;
 constexpr double kFirstEstimateFraction = 0.02;
 

@@ -30,7 +30,7 @@ struct ProgressReport {
 class Progress {
  public:
   /// @param stages  in the order of work; a stage that recurs is listed each time. Skipped stages
-  ///                count as done. A stage that is not found ahead in the list adds nothing to the
+  ///                count as done. A stage that is not among the remaining ones adds nothing to the
   ///                total.
   /// @param now_s   a monotonic clock
   /// @param sink    called at the beginning and end of each stage, and at most ten times a second

@@ -21,7 +21,7 @@ sigset_t watched() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     sigaction(number, nullptr, &action);
-    // nohup and a shell's background jobs cause some signals to be ignored.
+    // Signals that the parent set to be ignored (nohup, background jobs of a shell) stay ignored.
     if (action.sa_handler != SIG_IGN) sigaddset(&set, number);
   }
   sigaddset(&set, kWake);

@@ -11,13 +11,14 @@
 namespace hydroprint::image {
 namespace {
 
-constexpr double kPoint_mm = 0.7;  ///< radius of a disc
-constexpr double kDeep_mm = 3;     ///< points deeper below the surface belong to the other side
+constexpr double kPoint_mm = 0.7;  ///< radius of the disc that shows a point
+constexpr double kDeep_mm = 3;     ///< points deeper below the surface (far side) are hidden
 constexpr double kShown = 0.98;    ///< share of the points that the scale covers
 constexpr int kSteps = 5;          ///< number of steps of the scale in each direction
 const Eigen::Vector3f kObject(0.45F, 0.45F, 0.44F);  // linear
 
-/// Blue over white to red, with equal lightness on both sides (ColorBrewer's RdBu); sRGB-coded.
+/// Returns a colour from blue (0) through white to red (1), with equal lightness on both sides
+/// (ColorBrewer's RdBu); sRGB-coded.
 Eigen::Vector3f diverging(double t) {
   const Eigen::Vector3f blue(0.13F, 0.40F, 0.67F), white(0.97F, 0.97F, 0.97F),
       red(0.70F, 0.09F, 0.17F);

@@ -14,7 +14,7 @@ namespace hydroprint::image {
 namespace {
 
 constexpr int kCaption_px = 44;
-constexpr double kLetter_px = 13;  ///< height of an x
+constexpr double kLetter_px = 13;  ///< height of a lower-case x
 constexpr Rgb8 kPaper = {250, 250, 249}, kInk = {60, 64, 70};
 
 void fill(RgbImage& image, const Window& area,

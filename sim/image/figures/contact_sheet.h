@@ -21,8 +21,8 @@ inline constexpr int kLegend_px = 110;
                                           const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
 
-/// Returns the colour (linear) of a pattern of diagonal stripes in two greys at a sample; it marks
-/// areas without a value.
+/// Returns the linear colour, at a sample, of diagonal stripes in two greys. The stripes mark areas
+/// without a value.
 [[nodiscard]] Eigen::Vector3f hatch(int x, int y);
 
 /// Range of a scale, and the step between its labels.
@@ -34,9 +34,9 @@ struct Range {
 struct Scale {
   std::string label;
   Range range;
-  /// SRGB-coded colour for a position in the range, [0, 1].
+  /// Returns the sRGB-coded colour for a position in the range, from 0 (low) to 1 (high).
   std::function<Eigen::Vector3f(double)> coded;
-  std::string hatched;  ///< label of hatch(); empty: not used
+  std::string hatched;  ///< legend label of areas with hatch(); empty: not in the legend
 };
 
 /// Draws a legend into the space that draw_sheet() kept for it. Returns the errors of

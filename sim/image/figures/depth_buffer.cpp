@@ -63,7 +63,7 @@ template <class Visit>
 void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,
                     Visit&& visit) {
   const Corners at = flat(corners);
-  bool is_first = true;  // most tiles contain no sample
+  bool is_first = true;  // depths are set up on demand: most tiles have no sample
   double origin = 0, per_x = 0, per_y = 0;
   for_each_span(at, window, [&](int y, int begin, int end) {
     if (std::exchange(is_first, false)) {

@@ -43,7 +43,7 @@ class SeenObject {
   struct Sample {
     int tile = -1;               ///< index of the visible tile; -1: no tile, or background
     float towards = -HUGE_VALF;  ///< position along the view, mm; -infinity: background
-    float light = 1;             ///< shading by a lamp over the viewer's left shoulder
+    float light = 1;             ///< brightness factor, for a lamp over the viewer's left shoulder
     [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
   };
   /// A visible tile and its samples.
@@ -71,7 +71,8 @@ class SeenObject {
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
   /// Returns the normals at the corners of a triangle, in the view frame, one per column.
   [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
-  /// Index of the visible triangle of the surface at each sample; -1: none.
+  /// Computes the depth of each sample. Returns the index of the triangle of the surface that is
+  /// visible there; -1: background.
   std::vector<int> place_surface();
   void place_tiles();
   void sort_by_tile();
@@ -83,7 +84,7 @@ class SeenObject {
   Eigen::Isometry3d X_VO_;  ///< object to view, mm; the origin is the object's middle
   int width_, height_;
   double samples_per_mm_;
-  double depth_step_mm_;  ///< jumps in depth beyond this are outlines
+  double depth_step_mm_;  ///< larger jumps in depth are drawn as outlines
   std::vector<Sample> samples_;
   /// The visible tiles, the first index of each in `by_tile_`, and the samples of all tiles.
   std::vector<int> tile_numbers_, first_of_tile_, by_tile_;
@@ -95,24 +96,25 @@ class ViewDrawing {
   explicit ViewDrawing(const SeenObject& seen);
 
   /// Draws the tiles. `colour_of` is called once per tile with its corners on the sample grid. It
-  /// returns a function from a sample's barycentric coordinates to its linear colour before
-  /// shading.
+  /// returns a function from a sample's position and barycentric coordinates to its linear colour
+  /// before shading.
   using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
   using TileColourMaker =
       std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
   void draw_tiles(const TileColourMaker& colour_of);
 
-  /// Draws the rest of the surface in linear colours per sample, before shading.
+  /// Draws the rest of the surface. `colour` returns a sample's linear colour before shading.
   using Colour = std::function<Eigen::Vector3f(int x, int y)>;
   void draw_bare(const Colour& colour);
 
   /// Draws points as discs over the drawing, where the surface does not hide them.
-  /// @param points_O  points deeper than `deep_mm` below the surface are hidden
+  /// @param points_O  points more than `deep_mm` behind the visible surface are hidden
   /// @param colours   linear, one per point
   void draw_points(std::span<const Eigen::Vector3d> points_O,
                    std::span<const Eigen::Vector3f> colours, double radius_mm, double deep_mm);
 
-  /// Copies the drawing and its outlines onto a picture that shows background there.
+  /// Copies the drawing with its outlines onto a picture, whose pixels remain where the drawing
+  /// shows background.
   void put_on(RgbImage& picture, int left_px, int top_px) const;
 
  private:

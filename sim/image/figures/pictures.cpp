@@ -31,7 +31,7 @@ constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
                                          {173, 220, 48},
                                          {253, 231, 37}}};
 
-/// Returns an sRGB-coded colour, [0, 1].
+/// Returns the sRGB-coded colour, in [0, 1], at a position on the scale from 0 (low) to 1 (high).
 Eigen::Vector3f scale_colour(double t) {
   const double at = std::clamp(t, 0.0, 1.0) * (kScale.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
@@ -104,7 +104,7 @@ Result<RgbImage> stretch_picture(const ObjectViews& views, const flow::SurfaceMa
                                  const Context& context) {
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
     auto values = tile_stretch(views.surface, map, tile, Stretch::kLargest);
-    // Film that lands without any area is stretched without limit.
+    // A tile whose film has no area (NaN) is stretched without limit.
     for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
     return values;
   };

@@ -14,18 +14,20 @@
 
 namespace hydroprint::image {
 
-/// Draws a sheet of the object's views, coloured by stretch (section 6) from dark blue over green
-/// to yellow, with a legend; hatched grey where no film arrives. The colours can be distinguished
-/// by colour-blind readers and in grey.
+/// Draws a sheet of the object's views, coloured by stretch (section 6) from dark blue through
+/// green to yellow, with a legend; hatched grey where no film arrives. The colours can be
+/// distinguished by colour-blind readers and in greyscale.
 /// @param map  the map that contains the tiles in `views`
 [[nodiscard]] Result<RgbImage> stretch_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
 /// A quantity by which to colour an object.
 struct Quantity {
-  std::string label;                  ///< title of the legend
-  std::vector<double> values;         ///< the scale ignores extremes and NaN
-  double rest = 0, least_span = 0.1;  ///< the scale contains `rest` and spans at least `least_span`
+  std::string label;           ///< title of the legend
+  std::vector<double> values;  ///< the scale ignores extremes and NaN
+  /// The scale contains `rest` (the value without any effect) and extends at least `least_span`
+  /// above it.
+  double rest = 0, least_span = 0.1;
   /// Returns the values at a tile's corners; NaN is drawn as if no film arrived.
   std::function<std::array<double, 3>(const flow::MappedTriangle&)> at_corners;
   std::string hatched = "no film";  ///< legend label of NaN and of the bare surface
@@ -35,7 +37,8 @@ struct Quantity {
 [[nodiscard]] Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quantity,
                                                 const Context& context);
 
-/// Same as stretch_picture(), coloured by the smaller singular value.
+/// Same as stretch_picture(), coloured by the smaller singular value of the film-to-surface
+/// Jacobian.
 [[nodiscard]] Result<RgbImage> wrinkle_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
@@ -44,7 +47,7 @@ struct Quantity {
 [[nodiscard]] Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,
                                                  const Context& context);
 
-/// Longest side of a film image, in pixels, that is enough for these pictures
+/// Film images are reduced to at most this number of pixels per side for these pictures
 /// (FilmTexture::from_image).
 inline constexpr int kPictureFilmSide_px = 3000;
 

@@ -7,8 +7,8 @@
 
 namespace hydroprint::image {
 
-/// Draws text with built-in strokes, so that pictures need no installed font. Supports lower-case
-/// letters, digits, space and "+-._:/,#()". Other characters produce a gap.
+/// Draws a line of UTF-8 text. Characters that the font lacks are drawn as U+FFFD
+/// (text::Font::lay_out).
 /// @param left_px, baseline_px  start of the text
 /// @param size_px  height of a lower-case x
 void draw_text(RgbImage& image, const text::Font& font, double left_px, double baseline_px,

@@ -90,7 +90,7 @@ class Block {
     PerSample landed_s = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
   };
 
-  /// Contact time as a linear function of the pixel grid, at the samples of a pixel.
+  /// Contact time at the samples of a pixel, as a linear function of the pixel's position.
   struct TimePlane {
     TimePlane(const BarycentricMap& map, const Eigen::Vector3d& time_s)
         : per_x(map.per_x().dot(time_s)), per_y(map.per_y().dot(time_s)) {
@@ -136,7 +136,7 @@ class Block {
 
   void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
     const Spans& spans = rows_[y - window_.y0];
-    // Pixels of which some samples, and all samples, are covered.
+    // Ranges of the pixels with at least one covered sample, and with all samples covered.
     Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};
     for (const Span& span : spans) {
       all = {std::max(all.begin, span.begin), std::min(all.end, span.end)};

@@ -39,11 +39,11 @@ inline constexpr double kMinDpi = 20, kMaxDpi = 2400;
 inline constexpr double kMaxFilmImage_px = 400e6;
 
 /// Computes the image to print (end of section 4.5). Every point of the film gets the colour of the
-/// surface point where it lands, or white if it does not land. Ink side up, seen from above. Pixels
-/// at edges of the covered region have four samples; the texture is filtered over the pixel's
-/// footprint. Film that has landed does not move, so the earlier contact wins where tiles overlap.
-/// The result is bit-identical for any number of threads. Errors: kOutOfRange for dpi outside
-/// [kMinDpi, kMaxDpi] and images larger than kMaxFilmImage_px.
+/// surface point where it lands, or white if it does not land. The image shows the ink side, seen
+/// from above. Pixels at edges of the covered region have four samples; the texture is filtered
+/// over the pixel's footprint. Film that has landed does not move, so the earlier contact wins
+/// where tiles overlap. The result is bit-identical for any number of threads. Errors: kOutOfRange
+/// for dpi outside [kMinDpi, kMaxDpi] and images larger than kMaxFilmImage_px.
 [[nodiscard]] Result<RgbImage> film_image(const mesh::Surface& surface,
                                           const std::vector<flow::MappedTriangle>& tiles,
                                           const Paint& paint, const film::Outline& outline,

@@ -20,8 +20,8 @@ struct ImageExtent {
 };
 
 /// Returns the extent of an image of a film. An image with exactly the film's size at a whole
-/// number of dots per inch has that pitch and is centred, like those of film_image(). Any other
-/// image is fitted to the film's bounding box.
+/// number of dots per inch has that resolution and is centred, like the images of film_image(). Any
+/// other image is fitted to the film's bounding box.
 [[nodiscard]] ImageExtent image_extent(int width, int height, const film::Outline& outline);
 
 /// A film image placed on its film, with colour look-up by position.

@@ -18,7 +18,7 @@ constexpr int kMaxSide_px = 16384;
 int wrap_index(int i, int size) { return ((i % size) + size) % size; }
 
 /// Returns the tile's corners in the texture, in texels, y down, shifted by whole textures so that
-/// the tile starts in the first one. NaN if the model has no coordinates.
+/// the tile starts in the first one. NaN if the triangle has no texture coordinates.
 Corners texel_corners(const mesh::Model& model, const mesh::Surface& surface,
                       const flow::MappedTriangle& tile, int width, int height) {
   const auto barycentric = model_barycentric(surface, tile);
@@ -46,7 +46,8 @@ class LandedTexture {
   }
 
   void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
-    // Two textures wide and high: a tile that starts near the edge may extend beyond it.
+    // The window is two textures wide and high, because a tile that starts near the edge of the
+    // texture may extend beyond it.
     const Window window{0, 0, 2 * image_.width, 2 * image_.height};
     for_each_sample(at, window, [&](int x, int y, const Eigen::Vector3d& b) {
       const std::size_t texel =

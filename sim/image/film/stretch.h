@@ -15,9 +15,9 @@ namespace hydroprint::image {
 /// Selects a singular value of the film-to-surface Jacobian.
 enum class Stretch { kLargest, kLeast };
 
-/// Returns that singular value at a tile's corners (section 6). It is interpolated from the surface
-/// points if all three around the tile have one; otherwise it is that of the tile itself. NaN for a
-/// tile whose film has no area.
+/// Returns the selected singular value at a tile's corners (section 6). It is interpolated from the
+/// three surface points around the tile if all of them have a value; otherwise it is that of the
+/// tile itself. NaN for a tile whose film has no area.
 [[nodiscard]] std::array<double, 3> tile_stretch(const mesh::Surface& surface,
                                                  const flow::SurfaceMap& map,
                                                  const flow::MappedTriangle& tile,

@@ -32,10 +32,10 @@ tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
                                    "). Download or export the file again");
 }
 
-/// How the channels of a file are combined to a texel.
+/// How the channels of a file are combined into a texel.
 struct Layout {
   int channels = 3;
-  int alpha = -1;  ///< channel, -1: none
+  int alpha = -1;  ///< index of the alpha channel; -1: none
   bool premultiplied = false;
   bool grey = false;
   bool is_float = false;
@@ -212,8 +212,8 @@ Result<std::vector<unsigned char>> encode(const std::string& name, const char* e
                   name + ": encoding failed (" + first_line(why) + "). Please report this");
     }
   } catch (const std::exception& exception) {
-    return fail(Code::kInternal,
-                name + ": encoding failed (" + exception.what() + "). Is there enough memory?");
+    return fail(Code::kInternal, name + ": encoding failed (" + exception.what() +
+                                     "). Check that enough memory is free");
   }
   return file;
 }
@@ -263,8 +263,8 @@ Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const Pr
   spec.attribute("XResolution", static_cast<float>(dpi));
   spec.attribute("YResolution", static_cast<float>(dpi));
   spec.attribute("ResolutionUnit", "in");
-  // Without this attribute, the library writes the current time. This is Exif's unknown time (2.3,
-  // tag 306).
+  // Without this attribute, the library writes the current time, and equal images must yield equal
+  // files. The value is Exif's code for an unknown time (Exif 2.3, tag 306).
   spec.attribute("DateTime", "    :  :     :  :  ");
   if (image.channels == 4) {
     spec.channelnames = {"C", "M", "Y", "K"};
@@ -286,7 +286,7 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
   spec.channelnames = channels;
   spec.attribute("compression", "zip");
   spec.attribute("DateTime",
-                 "");  // otherwise the time of writing; equal images must yield equal files
+                 "");  // otherwise the current time; equal images must yield equal files
   return encode(name, "openexr", spec, TypeDesc::FLOAT, values.data());
 }
 

@@ -13,9 +13,10 @@
 
 namespace hydroprint::image {
 
-/// The functions that need an image library; image_file.h documents each with its caller.
-/// OpenImageIO depends on some two hundred libraries that take a third of a second to load, and
-/// most runs need none of them. They are therefore in a module that is loaded on first use.
+/// The functions that need an image library; image_file.h, printer_image.h and grey16.h document
+/// them. OpenImageIO depends on some two hundred libraries that take a third of a second to load,
+/// and most runs need none of them. These functions are therefore in a module that is loaded on
+/// first use.
 struct ImageCodecs {
   Result<ReadImage> (*read_file)(const std::filesystem::path& path, const Context& context);
   Result<ReadImage> (*read_bytes)(const std::vector<unsigned char>& bytes, const std::string& name,

@@ -29,8 +29,8 @@ class Srgb8Encoder {
 /// Same as Srgb8Encoder, for single values.
 [[nodiscard]] std::uint8_t srgb8_from_linear(float linear);
 
-/// Converts 16-bit sRGB codes to 16-bit linear light with a table. 8-bit codes times 257 survive
-/// the round trip.
+/// Converts 16-bit sRGB codes to 16-bit linear light with a table. Srgb8Encoder converts the result
+/// for an 8-bit code times 257 back to the same 8-bit code.
 [[nodiscard]] std::uint16_t linear16_from_srgb16(std::uint16_t coded);
 
 }  // namespace hydroprint::image

@@ -57,8 +57,8 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
   Signature head{};
   if (bytes.read(head.data(), 8, 16) != 8) {
     return fail(Code::kDataLoss, at_byte(name, 16) +
-                                     "the PNG ends within its header. Get the "
-                                     "file again");
+                                     "the PNG ends within its header. Download or export "
+                                     "the file again");
   }
   HP_RETURN_IF_ERROR(check_size(big_endian(head.data(), 4), big_endian(head.data() + 4, 4),
                                 bytes.size, Format::kPng, name));
@@ -70,7 +70,7 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
     }
     const std::int64_t length = big_endian(head.data(), 4);
     const bool is_last = std::memcmp(head.data() + 4, "IEND", 4) == 0;
-    // A wrong checksum after the last chunk does no harm.
+    // A wrong checksum in the last chunk does no harm.
     if (is_last) return {};
     if (at + 12 + length > bytes.size || !is_chunk_sound(bytes, at, length)) {
       return fail(Code::kDataLoss, at_byte(name, at) +
@@ -81,8 +81,8 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
   }
 }
 
-/// Finds the frame header: a progressive JPEG's decoder allocates memory for the whole image on
-/// opening.
+/// Finds the frame header and checks the image's size, because the decoder of progressive JPEGs
+/// allocates memory for the whole image when it opens the file.
 Status check_jpeg(const ByteSource& bytes, const std::string& name) {
   Signature head{};
   for (std::int64_t at = 2; bytes.read(head.data(), 4, at) == 4;) {
@@ -103,7 +103,7 @@ Status check_jpeg(const ByteSource& bytes, const std::string& name) {
     at += 2 + big_endian(head.data() + 2, 2);
   }
   return fail(Code::kDataLoss,
-              name + ": a JPEG without a readable header. Download or export the file again");
+              name + ": the JPEG has no readable header. Download or export the file again");
 }
 
 }  // namespace
@@ -150,19 +150,19 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                             name, size));
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
-    return fail(
-        Code::kOutOfRange,
-        fmt::format(
-            "{}, header: {}, more than {} per side or {} million in all. Scale the image down",
-            name, size, kMaxImageSide_px, kMaxImageArea_px / 1'000'000));
+    return fail(Code::kOutOfRange,
+                fmt::format("{}, header: {}, more than {} pixels per side or {} million in all. "
+                            "Scale the image down",
+                            name, size, kMaxImageSide_px, kMaxImageArea_px / 1'000'000));
   }
   // Deflate compresses at most 1032 to 1, and here a pixel has at least one bit; the other formats
   // compress less than 5000 to 1.
   const std::int64_t pixels_per_byte = format == Format::kPng ? 8 * 1032 : 8 * 5000;
   if (width * height / pixels_per_byte > file_size) {
-    return fail(Code::kDataLoss, fmt::format("{}, header: announces {} in a file of {} bytes, "
-                                             "which cannot hold them. Get the file again",
-                                             name, size, file_size));
+    return fail(Code::kDataLoss,
+                fmt::format("{}, header: announces {} in a file of {} bytes, "
+                            "which cannot hold them. Download or export the file again",
+                            name, size, file_size));
   }
   return {};
 }

@@ -20,10 +20,11 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< size before compression
+constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< of a band, before compression
 constexpr double kMmPerInch = 25.4;
 
-/// Filters of the PNG specification (section 9.2): difference to the byte on the left, or above.
+/// Filters of the PNG specification (section 9.2): difference from the same byte of the pixel on
+/// the left, or above.
 enum Filter : unsigned char { kSub = 1, kUp = 2 };
 
 /// Samples as stored in memory, row by row.
@@ -60,7 +61,8 @@ void append_chunk(Bytes& out, std::string_view type, std::span<const unsigned ch
                       crc32_z(0, out.data() + start, static_cast<z_size_t>(out.size() - start))));
 }
 
-/// Returns the sum of a row's bytes as signed magnitudes; rows with a smaller sum compress better.
+/// Returns the sum of the absolute values of a row's bytes, taken as signed numbers. Rows with a
+/// smaller sum compress better.
 long weight(std::span<const unsigned char> row) {
   long sum = 0;
   for (const unsigned char byte : row) sum += std::abs(static_cast<signed char>(byte));
@@ -106,7 +108,7 @@ bool deflate(Bytes& raw, bool is_end, Bytes& out) {
   if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, kRawDeflate, 9, Z_DEFAULT_STRATEGY) != Z_OK) {
     return false;
   }
-  constexpr std::size_t kFlush = 16;  // more than a flush takes
+  constexpr std::size_t kFlush = 16;  // bytes; more than a flush adds
   out.resize(deflateBound(&stream, static_cast<uLong>(raw.size())) + kFlush);
   stream.next_in = raw.data();
   stream.avail_in = static_cast<uInt>(raw.size());
@@ -141,8 +143,8 @@ Status compress(const Rows& image, std::vector<Band>& bands, const Context& cont
   });
 }
 
-/// Returns signature and header. `depth` is the number of bits per channel and `colour` the colour
-/// type, as numbered in the specification.
+/// Returns the PNG signature and the header chunk. `depth` is the number of bits per channel and
+/// `colour` the colour type, as numbered in the specification.
 Bytes start(const Rows& image, unsigned char depth, unsigned char colour) {
   Bytes header;
   append_u32(header, static_cast<std::uint32_t>(image.width));
@@ -249,7 +251,7 @@ Result<std::vector<unsigned char>> encode_png(const PrinterImage& image, double 
 
 Result<std::vector<unsigned char>> encode_png(const Grey16Image& image, const Context& context) {
   HP_CHECK(image.grey.size() == static_cast<std::size_t>(image.width) * image.height);
-  Bytes bytes;  // the higher byte of each number first
+  Bytes bytes;  // big-endian
   bytes.reserve(2 * image.grey.size());
   for (const std::uint16_t value : image.grey) {
     bytes.push_back(static_cast<unsigned char>(value >> 8U));

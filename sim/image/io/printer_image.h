@@ -40,7 +40,7 @@ struct PrinterImage {
 [[nodiscard]] Status write_tiff(const std::filesystem::path& path, const PrinterImage& image,
                                 double dpi, const std::string& icc_profile);
 
-/// Converts one row of an image to 8-bit sRGB codes; `rgb` has space for three per texel.
+/// Converts one row of an image to 8-bit sRGB codes; `rgb` has space for three bytes per texel.
 void srgb8_row(const Texels& image, int y, std::uint8_t* rgb);
 
 }  // namespace hydroprint::image

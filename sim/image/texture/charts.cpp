@@ -88,7 +88,7 @@ int fold_index(std::int64_t i, int size, mesh::Wrap wrap) {
   return static_cast<int>(folded < n ? folded : period - 1 - folded);
 }
 
-/// The texels under triangles, in whichever unit tile the triangles lie.
+/// Finds the texels under triangles, which may lie in any unit tile.
 class Marker {
  public:
   Marker(Texels& texels, mesh::Wrap u, mesh::Wrap v) : texels_(texels), u_(u), v_(v) {}
@@ -108,7 +108,8 @@ class Marker {
     for (int i = 0; i < 3; ++i) corners[i] = position(triangle.uv[i]);
     const Eigen::Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     if (!low.allFinite() || low.cwiseAbs().maxCoeff() > 1e9) return;
-    // Relative to the triangle's own tile; two tiles in each direction cover every texel.
+    // Relative to the triangle's lower corner. From there, a window of two textures in each
+    // direction reaches every texel, even under larger triangles.
     const std::int64_t x0 = static_cast<std::int64_t>(std::floor(low.x()));
     const std::int64_t y0 = static_cast<std::int64_t>(std::floor(low.y()));
     for (auto& corner : corners)
@@ -163,8 +164,8 @@ std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
       marker.for_each(triangles[t], [&](const Texel& texel) { same.unite(texel.chart, id); });
     }
     if (count.all > 0) continue;
-    // The triangle is too slim to contain a texel's centre, so it gets the unmarked texels that it
-    // touches.
+    // The piece is too slim to contain a texel's centre, so it gets the unmarked texels at its
+    // triangles' corners.
     const auto& uv = triangles[t].uv;
     for (const Eigen::Vector2d& point : {uv[0], uv[1], uv[2]}) {
       const Eigen::Vector2d p = marker.position(point);

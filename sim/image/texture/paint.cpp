@@ -141,8 +141,8 @@ class PaintLoader {
   }
 
   Status gather_materials() {
-    // Ink 0 is the fallback, ink 1 + 2 m is that of material m, and ink 2 + 2 m that of material m
-    // without coordinates.
+    // Ink 0 is the fallback. Ink 1 + 2 m is for triangles of material m with texture coordinates,
+    // and ink 2 + 2 m for those without.
     const std::size_t materials = model_.materials.size();
     paint_.inks_.assign(1 + 2 * materials, fallback());
     std::vector<bool> is_ready(materials, false);
@@ -163,7 +163,7 @@ class PaintLoader {
     const mesh::Material& material = model_.materials[m];
     Ink& with_uvs = paint_.inks_[1 + 2 * m];
     Ink& without_uvs = paint_.inks_[2 + 2 * m];
-    // Exporters write plain white if the colours are those of the vertices.
+    // Exporters write plain white as the material's colour if the vertices define the colours.
     const bool is_white = material.colour == Eigen::Vector3f::Ones();
     if (material.has_colour && !(is_white && !model_.vertex_colours.empty())) {
       without_uvs = {Ink::Kind::kColour, linear_from_srgb(material.colour), -1};
@@ -286,7 +286,7 @@ class PaintLoader {
   Paint paint_;
   std::vector<Pending> pending_;
   std::int64_t area_px_ = 0;
-  /// A texture and its use: path, content if embedded, wrap modes.
+  /// A texture and its use: path, hash of the embedded content (if any), wrap modes.
   using Key = std::tuple<std::filesystem::path, std::size_t, mesh::Wrap, mesh::Wrap>;
   std::map<Key, int> known_;
 };

@@ -30,7 +30,7 @@ class Brush {
 
  private:
   friend class Paint;
-  const Texture* texture_ = nullptr;  ///< nullptr: uses colour_ and its slopes
+  const Texture* texture_ = nullptr;  ///< nullptr: the brush uses colour_ and colour_per_sample_
   const Chart* chart_ = nullptr;
   Texture::Footprint footprint_;
   Texture::Shortcut shortcut_;

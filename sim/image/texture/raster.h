@@ -23,7 +23,8 @@ __extension__ typedef __int128 Int128;
 
 /// Corners are rounded to 1/1024 of a sample; all later computation is exact.
 inline constexpr int kOne = 1024;
-/// Corners up to kNarrow fit 64-bit edge functions, up to kWide 128-bit ones.
+/// Corners within kNarrow samples of the origin fit 64-bit edge functions, within kWide 128-bit
+/// ones.
 inline constexpr double kNarrow = 1 << 19;
 inline constexpr double kWide = static_cast<double>(std::int64_t{1} << 40);
 
@@ -38,7 +39,7 @@ template <class Int>
 struct Edge {
   Int ax, ay, dx, dy;
   Int threshold;  ///< 0 for top and left edges, which own the samples exactly on them, else 1
-  Int per_row;    ///< |dy| over one sample
+  Int per_row;    ///< change of the edge function from one sample of a row to the next
   double reciprocal;
 
   Edge(Int ax_, Int ay_, Int bx, Int by)

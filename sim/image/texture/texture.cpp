@@ -11,8 +11,8 @@ namespace {
 constexpr int kMaxProbes = 16;
 constexpr int kRowsAtOnce = 32;
 
-/// Returns the mean of up to four texels, using only those of their most frequent chart (0: none of
-/// them has a chart).
+/// Returns the mean of up to four texels, using only those of their most frequent chart. Uses all
+/// of them if none has a chart.
 Texel mean(const std::array<const Texel*, 4>& children, int count) {
   std::uint16_t chart = 0;
   int most = 0;
@@ -156,7 +156,7 @@ Texture::Footprint Texture::footprint(const Eigen::Matrix2d& uv_per_sample) cons
     footprint.level = static_cast<int>(levels_.size()) - 1;
     return footprint;
   }
-  // The longer axis of the ellipse: leading right singular vector.
+  // The longer axis of the footprint's ellipse: leading right singular vector.
   const Eigen::Matrix2d gram = texels.transpose() * texels;
   const double angle = 0.5 * std::atan2(2 * gram(0, 1), gram(0, 0) - gram(1, 1));
   const Eigen::Vector2d axis(std::cos(angle), std::sin(angle));
@@ -243,7 +243,7 @@ Texture::Sum Texture::trilinear(const Eigen::Vector2d& folded, const Footprint& 
   Sum sum = bilinear(folded, footprint.level, chart);
   if (footprint.blend <= 0) return sum;
   const Sum coarse = bilinear(folded, footprint.level + 1, chart);
-  // Each level is weighted by its fraction, even if little of it belongs to the chart.
+  // The weight of a level does not depend on how many of its texels belong to the chart.
   if (coarse.weight <= 0) return sum;
   if (sum.weight <= 0) return coarse;
   sum.colour = sum.colour / sum.weight * (1 - footprint.blend) +
@@ -281,7 +281,8 @@ Eigen::Vector3f Texture::sample(const Eigen::Vector2d& uv, const Footprint& foot
 
 Eigen::Vector3f Texture::finer(const Eigen::Vector2d& uv, const Footprint& footprint,
                                const Chart& chart) const {
-  // Coarse texels around a narrow chart may all belong to its neighbours; finer ones may not.
+  // All coarse texels around a narrow chart may belong to its neighbours. Finer levels can still
+  // have texels of the chart.
   const Eigen::Vector2d folded = fold(uv, chart);
   for (int level = footprint.level - 1; level >= 0; --level) {
     const Sum sum = bilinear(folded, level, chart);

@@ -12,20 +12,20 @@
 
 namespace hydroprint::image {
 
-/// An image that can be sampled at any size: linear light, a mipmap pyramid, and averages that stay
-/// within one chart.
+/// An image that can be sampled at any resolution: linear light, a mipmap pyramid, and averages
+/// that stay within one chart.
 class Texture {
  public:
-  /// Uses the texels as level 0 and builds the other levels: 8 bytes per texel, plus a third for
-  /// the pyramid.
+  /// Uses the texels as level 0 and builds the other levels. Takes 8 bytes per texel, plus a third
+  /// for the pyramid.
   [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
                                              const Context& context);
 
   /// The shape of a sample's neighbourhood in the texture; constant over an affine patch.
   struct Footprint {
     int level = 0;
-    float blend = 0;  ///< weight of the next level
-    int probes = 1;   ///< along the longer axis of the footprint
+    float blend = 0;  ///< weight of the next coarser level
+    int probes = 1;   ///< number of probes along the longer axis of the footprint
     Eigen::Vector2d step_uv = Eigen::Vector2d::Zero();
   };
   /// @param uv_per_sample  columns: change of (u, v) from one sample to the next in x and in y
@@ -52,11 +52,11 @@ class Texture {
     friend class Texture;
     const Texels* image_ = nullptr;
     std::uint16_t chart_ = 0;
-    /// In texels; (0, 0) is the centre of a texel.
+    /// In texels; (0, 0) is the centre of the upper left texel.
     Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
     Eigen::Matrix2d per_sample_ = Eigen::Matrix2d::Zero();
   };
-  /// @param uv  of the patch's origin
+  /// @param uv  texture coordinates of the patch's origin
   [[nodiscard]] Shortcut shortcut(const Eigen::Vector2d& uv, const Eigen::Matrix2d& uv_per_sample,
                                   const Footprint& footprint, const Chart& chart) const;
 

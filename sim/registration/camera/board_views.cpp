@@ -20,7 +20,8 @@ constexpr double kJump_mm = 12;
 /// Limits for the size of a cluster, relative to the board's diagonal.
 constexpr double kLeastSize = 0.8, kMostSize = 1.2;
 constexpr std::size_t kMostStarts = 6;
-constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share of points on the board over rms
+/// Limits of PoseFit::paired_share / PoseFit::rms_sigmas.
+constexpr double kLeastPaired = 0.6, kSurely = 0.85;
 constexpr double kStartReach_mm = 25, kLeastFacing = 0.2;
 constexpr std::size_t kFewestViews = 5;
 constexpr int kCell_px = 80;
@@ -64,10 +65,10 @@ std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::ve
   return out;
 }
 
-/// The board's plates slope away from its ridge, so normals vary most across the ridge. This
-/// determines the board's orientation up to half a turn.
+/// Returns the two poses that the board's bend allows. Its plates slope away from its ridge, so
+/// normals vary most across the ridge, which determines the orientation up to half a turn.
 std::array<Pose, 2> by_its_bend(const std::vector<scan::ScanPoint>& points, const Shape& board) {
-  // Weighted by area on the board, not in the image.
+  // Points are weighted by their area on the board, not in the image.
   double area = 0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(), mean = middle;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -153,7 +154,7 @@ std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens)
     return "the board has about the same tilt in all views. Tilt it by 30 degrees in each "
            "direction";
   if (farthest - nearest < kLeastRange * nearest)
-    return "the board has about the same distance in all views. Record some nearer and some "
+    return "the board is at about the same distance in all views. Record some nearer and some "
            "farther";
   return {};
 }

@@ -16,8 +16,8 @@ struct BoardView {
   Pose X_CB = Pose::Identity();
 };
 
-/// Finds the board in a cloud: the piece of the board's size that fits best.
-/// @return nullopt if there is none
+/// Finds the board in a cloud: the connected piece of the board's size that fits best.
+/// @return nullopt if no piece fits
 [[nodiscard]] Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud,
                                                           const Shape& board, int patch_px,
                                                           const Context& context);

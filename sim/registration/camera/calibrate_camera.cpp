@@ -23,12 +23,14 @@ using scan::Lens;
 constexpr int kLens = Lens::kParameters;
 constexpr int kMostIterations = 25;
 constexpr double kFirstReach_mm = 12, kLeastReach_mm = 6, kReachShrinks = 0.8;
-constexpr double kSettled = 1e-4;  ///< largest last step, relative to the prior's uncertainty
+/// A smaller step ends the iteration; in standard deviations of the prior.
+constexpr double kSettled = 1e-4;
 constexpr double kMostSigmas = 2;
 constexpr double kDeterminedShare = 1.0 / 3;
-constexpr std::array kNames{"focal length across", "focal length down", "image centre across",
-                            "image centre down",   "distortion k1",     "distortion k2",
-                            "distortion p1",       "distortion p2",     "depth scale"};
+constexpr std::array kNames{
+    "horizontal focal length", "vertical focal length", "horizontal image centre",
+    "vertical image centre",   "distortion k1",         "distortion k2",
+    "distortion p1",           "distortion p2",         "depth scale"};
 
 tl::unexpected<Error> poor(const std::string& why) {
   return fail(Code::kFailedPrecondition, "the camera cannot be calibrated from these views: " + why,
@@ -204,11 +206,12 @@ class Adjuster {
     out.views = views_.size();
     judge(out);
     if (out.rms_sigmas > kMostSigmas)
-      return poor("the board's shape does not match them. Use the right board, and hold it still");
+      return poor(
+          "the board's shape does not match the views. Use the right board, and hold it still");
     for (std::size_t j = 0; j < kLens; ++j) {
       const auto i = static_cast<Index>(j);
       if (std::sqrt(scaled(i, i)) > kDeterminedShare)
-        return poor(std::string("they do not determine the ") + kNames[j] +
+        return poor(std::string("the views do not determine the ") + kNames[j] +
                     ". Record more views, nearer and with more tilt");
     }
     out.pattern = learn_pattern(sightings_, [this](const Sighting& s) { return row_of(s); }, all,

@@ -16,8 +16,8 @@ struct CameraCalibration : scan::Camera {
   std::size_t views = 0;  ///< number of views in which the board was found
 };
 
-/// Finds the lens and the depth scale for which a board of known shape has that shape in every
-/// view: least squares over the lens and the board's poses in all views together. Uses one point
+/// Finds the lens and the depth scale for which a board of known shape has this shape in every
+/// view, by least squares over the lens and the board's poses in all views together. Uses one point
 /// per patch of constant noise. This noise is assumed to be the same in every view, and is
 /// estimated together with the lens.
 /// Fails (kFailedPrecondition, POOR_VIEWS) with a message on how to improve the views. The views

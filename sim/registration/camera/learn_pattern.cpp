@@ -11,7 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr Index kLens = scan::Lens::kParameters;
-constexpr Index kMostOthers = 72;  ///< unknowns besides the lens's; enough for twelve views
+/// Maximum number of unknowns besides the lens's: those of twelve views.
+constexpr Index kMostOthers = 72;
 
 /// Reduces the number of unknowns: keeps those of the lens, and the strongest combinations of the
 /// others, which are also independent of each other. The rest is added to each patch's own error.
@@ -45,7 +46,7 @@ scan::FixedPattern learn_pattern(const std::vector<Sighting>& sightings,
   for_each_patch(sightings, [&](std::span<const Sighting> patch) {
     const Constant constant = constant_of(patch);
     const int place = patch.front().pair.scan->patch;
-    // If a depth is too large, the point lies inward, which is negative here.
+    // A depth that is too large moves the point inward, where residuals are negative.
     const auto i = static_cast<std::size_t>(place);
     out.offset[i] = static_cast<float>(-constant.pull / constant.square);
     out.sigma[i] = static_cast<float>(std::min(1.0, spread / std::sqrt(constant.square)));

@@ -9,7 +9,7 @@ namespace hydroprint::registration {
 
 /// Computes the camera's fixed pattern from the residuals of the views of a board.
 /// @param sightings   sorted by patch
-/// @param row_of      returns the row of a sighting
+/// @param row_of      returns the SightingRow of a sighting
 /// @param covariance  of all unknowns: the lens in units of its prior standard deviations, then the
 ///                    pose of each view
 /// @param spread      ratio of the sightings' spread to their noise

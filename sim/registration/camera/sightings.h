@@ -54,7 +54,7 @@ void for_each_patch(const std::vector<Sighting>& sightings, Use use) {
 }
 
 /// Derivative of a sighting's residual with respect to the lens parameters, in units of their prior
-/// standard deviations, and to the pose of its view.
+/// standard deviations, and with respect to the pose of its view.
 using SightingRow = Eigen::Matrix<double, scan::Lens::kParameters + 6, 1>;
 
 /// Returns the index of a view's pose among all unknowns; the lens comes first.

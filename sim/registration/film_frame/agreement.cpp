@@ -8,7 +8,7 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kPlaced_mm = 0.2;         ///< accuracy of the markers' positions and of the lens
-constexpr double kNormalQuantile = 3.719;  ///< standard deviations of a normal distribution
+constexpr double kNormalQuantile = 3.719;  ///< 99.99 % quantile of the normal distribution
 constexpr int kSteps = 5;
 
 struct Spot {
@@ -59,7 +59,7 @@ Settled settled(const std::vector<Spot>& spots, Pose pose) {
   return {pose, square};
 }
 
-/// Compares chi-square with a quantile (Wilson and Hilferty 1931).
+/// Returns whether chi-square is below its 99.99 % quantile (Wilson and Hilferty 1931).
 bool is_chance(double square, std::size_t spots) {
   const double freedom = 3 * static_cast<double>(spots) - 6, share = 2 / (9 * freedom);
   return square < freedom * std::pow(1 - share + kNormalQuantile * std::sqrt(share), 3);

@@ -21,7 +21,7 @@ constexpr double kHiddenShare = 0.5;
 constexpr double kMoved_mm = 40;  ///< a marker found within this distance of a place belongs there
 constexpr double kWeak_mm = 5;
 
-/// The pyramids that are used, at their places in the layout, as one body in the film frame.
+/// Returns the used pyramids, at their places in the layout, as one body in the film frame.
 Shape body_of(const MarkerLayout& layout, const Matching& matching) {
   mesh::Surface all;
   for (std::size_t a = 0; a < layout.markers.size(); ++a) {
@@ -52,7 +52,7 @@ double rms_of(const Shape& shape, const Pose& X_BC, const std::vector<scan::Scan
   return std::sqrt(squares / static_cast<double>(points.size()));
 }
 
-/// Why the marker at this place is not used.
+/// Returns why the marker at this place is not used.
 std::string reason(const Marker& marker, const MarkerLayout& layout,
                    const std::vector<FoundMarker>& found, const Matching& matching,
                    const scan::DepthFrame& depth, const scan::Lens& lens, const Pose& X_CF) {
@@ -67,7 +67,8 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
   }
   const Shape shape(pyramid(layout.width_mm, layout.height_mm));
   const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
-  if (sight.out_of_view > kHiddenShare) return "it is out of the camera's view";
+  if (sight.out_of_view > kHiddenShare)
+    return "it is out of the camera's view. Aim the camera at all markers";
   if (sight.before + sight.without_depth + sight.out_of_view > kHiddenShare)
     return "it is hidden. Clear the camera's view of it";
   return "the scan does not show its shape. It may be knocked over, dirty or missing";
@@ -112,8 +113,8 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
                                const Pose& nominal_CF) {
   if (found.size() >= kFewestMarkers)
     return too_few(
-        fmt::format("{} markers are seen, but their distances differ from the configuration. Move "
-                    "them back to their marks",
+        fmt::format("{} markers are seen, but the distances between them differ from the "
+                    "configuration. Move them back to their marks",
                     found.size()));
   std::vector<bool> is_seen(layout.markers.size());
   for (const FoundMarker& f : found) {
@@ -125,7 +126,8 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
         [&](const Marker& a, const Marker& b) { return distance(a) < distance(b); });
     is_seen[static_cast<std::size_t>(nearest - layout.markers.begin())] = true;
   }
-  std::string text = fmt::format("only {} of at least three markers are seen", found.size());
+  std::string text =
+      fmt::format("at least three markers are needed, but only {} are seen", found.size());
   for (std::size_t a = 0; a < is_seen.size(); ++a)
     if (!is_seen[a])
       text += "; \"" + layout.markers[a].name + "\" may be hidden, knocked over, dirty or missing";

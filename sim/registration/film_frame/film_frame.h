@@ -15,7 +15,7 @@ struct MarkerReport {
   double rms_mm = 0;
   /// Distance of the marker, fitted alone, from its place in the fit of all markers.
   double residual_mm = 0;
-  std::string why_not;  ///< why it is not used: hidden, displaced or of another shape
+  std::string why_not;  ///< why the marker is not used: hidden, displaced or of another shape
 };
 
 /// The film frame, found from the markers.

@@ -31,7 +31,7 @@ constexpr double kMostSigmas = 1.8;
 constexpr double kLeastPaired = 0.75;
 constexpr double kSurelyPaired = 0.9;
 constexpr double kSame_mm = 20;
-/// Ensures that no direction is weak, because there is no nominal pose.
+/// FitOptions::weak_sigma_mm so large that no direction is weak, because there is no nominal pose.
 constexpr double kAny_mm = 1e3;
 
 /// Data that all candidates share.
@@ -124,8 +124,8 @@ bool is_pyramid(const Search& s, const PoseFit& fit) {
          fit.rms_sigmas < kMostSigmas && fit.paired_share > kLeastPaired;
 }
 
-/// Aligns a marker with ICP. Then twice: selects the points near the current pose and fits the pose
-/// to them.
+/// Aligns a marker with ICP. Then selects the points near the current pose and fits the pose to
+/// them, twice.
 std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context& context) {
   FitOptions options;
   options.weak_sigma_mm = kAny_mm;

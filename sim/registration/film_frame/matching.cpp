@@ -10,11 +10,12 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kNear_mm = 4;      ///< distance of a marker from its place
-constexpr double kAsGood_mm = 0.7;  ///< difference of rms between equally good matchings
+constexpr double kNear_mm = 4;  ///< maximum distance of a marker from its place
+/// Maximum difference in rms error between equally good matchings.
+constexpr double kAsGood_mm = 0.7;
 /// Maximum difference of side lengths between two triangles of markers.
 constexpr double kTriangle_mm = 8;
-constexpr double kThin_mm = 30;  ///< least height of a triangle of markers
+constexpr double kThin_mm = 30;  ///< minimum height of a triangle of markers
 
 Pose between(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
   HP_CHECK(from.size() == to.size());

@@ -18,7 +18,8 @@ struct Matching {
 };
 
 /// Finds the matching with the most markers, each within 4 mm of its place. If several have the
-/// same number, returns the one with the smallest rotation from `nominal_CF`. Detected markers that
+/// same number and nearly the same rms error, returns the one with the smallest rotation from
+/// `nominal_CF`. Detected markers that
 /// are not near any place are dropped: they were displaced, or are not markers.
 /// @return a matching with fewer than three markers if none is found
 [[nodiscard]] Matching match(const std::vector<FoundMarker>& found, const MarkerLayout& layout,

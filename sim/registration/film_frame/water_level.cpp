@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t kFewest = 200;
 constexpr double kSearch_mm = 15;
 constexpr double kNear_mm = 4;
-constexpr double kLeastLevel = 0.8;   ///< cosine between a point's normal and up
-constexpr std::size_t kLooked = 500;  ///< points used for the camera's part of the error
+constexpr double kLeastLevel = 0.8;  ///< minimum cosine between a point's normal and up
+/// About this many points are used for the camera's part of the error.
+constexpr std::size_t kLooked = 500;
 
 struct Height {
   double z_mm;
@@ -52,7 +53,8 @@ double noise_of_mean(const std::vector<Height>& all) {
   return variance;
 }
 
-/// Variance of the water's height due to the film frame and to the camera, which both share.
+/// Variance of the water's height due to the errors of the film frame and of the camera. The
+/// camera's errors also move the film frame, so part of them cancels.
 double frame_and_camera(const std::vector<Height>& all, const scan::Camera& camera,
                         const FilmFrame& frame) {
   const scan::CameraErrors errors(camera);
@@ -79,8 +81,10 @@ Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
   const Pose X_FC = frame.X_CF().inverse();
   auto all = heights(cloud, X_FC, half_film_mm);
   if (all.size() < kFewest)
-    return fail(Code::kFailedPrecondition,
-                "too little of the water is in view to measure its level", "NO_WATER");
+    return fail(
+        Code::kFailedPrecondition,
+        "too little of the water is in view to measure its level. Aim the camera at the water",
+        "NO_WATER");
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Height& a, const Height& b) { return a.z_mm < b.z_mm; });

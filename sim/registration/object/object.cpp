@@ -29,7 +29,7 @@ constexpr double kLeastOnShare = 0.85;
 constexpr double kMaxThroughShare = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kMismatchTolerance = 0.03;
-/// Share of the points in one piece that means a second object.
+/// A connected piece off the mesh with a larger share of the points is a second object.
 constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
 constexpr double kMostlySeen = 0.6;

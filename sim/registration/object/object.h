@@ -22,8 +22,8 @@ struct ObjectPose {
   Matrix6 covariance = Matrix6::Zero();
   PoseFit fit;                    ///< pose in the camera frame
   std::vector<std::string> weak;  ///< motions that the scan does not determine (describe())
-  double misfit_mm = 0;           ///< rms distance from the mesh of means over 16 x 16 pixels
-  double on_share = 0;            ///< fraction of the scan's points within 4 mm of the mesh
+  double misfit_mm = 0;  ///< rms, over blocks of 16 x 16 pixels, of the mean distance from the mesh
+  double on_share = 0;   ///< fraction of the scan's points within 4 mm of the mesh
   Sight sight;
   Warnings warnings;  ///< `object_partly_out_of_view`, `object_partly_hidden`, `pose_unconstrained`
 };
@@ -42,7 +42,7 @@ struct ObjectTask {
 /// from the nominal pose, with a warning. Fails with kFailedPrecondition: NO_OBJECT; WRONG_UNITS if
 /// the mesh would have the right size in another unit, which the message names; TWO_OBJECTS if a
 /// large part of the scan belongs to something else; MIRRORED if only the mirrored mesh fits;
-/// NOT_THIS_OBJECT.
+/// otherwise NOT_THIS_OBJECT.
 [[nodiscard]] Result<ObjectPose> find_object(const scan::Cloud& cloud,
                                              const scan::DepthFrame& depth,
                                              const FilmFrame& film_frame, const ObjectTask& task,

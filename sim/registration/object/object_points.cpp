@@ -11,7 +11,7 @@ namespace {
 constexpr double kJump_mm = 12;
 constexpr double kMarkerMargin_mm = 10;
 constexpr double kStray_mm = 50;      ///< margin around a marker that may be displaced
-constexpr double kSpeckShare = 0.03;  ///< share of the largest piece
+constexpr double kSpeckShare = 0.03;  ///< minimum size of a piece, relative to the largest
 constexpr std::size_t kSpeckPoints = 40;
 
 bool of_a_marker(const Eigen::Vector3d& p_F, const FilmFrame& frame, const MarkerLayout& layout) {

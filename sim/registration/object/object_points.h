@@ -9,10 +9,10 @@ namespace hydroprint::registration {
 /// Parts of a scan that cannot belong to the object; film frame.
 struct Surroundings {
   double clear_mm = 16;  ///< points below this height above the water are water, film or bars
-  /// The gripper lies within a vertical cylinder above this height.
+  /// Position (x, y) of the axis of the vertical cylinder that contains the gripper.
   Eigen::Vector2d gripper_mm = Eigen::Vector2d::Zero();
   double gripper_radius_mm = 28;
-  double gripper_from_mm = 1e9;  ///< height; by default there is no gripper
+  double gripper_from_mm = 1e9;  ///< height of the gripper's lower end; default: no gripper
   /// The object is within this distance of the film's centre in x and in y.
   Eigen::Vector2d reach_mm{140, 180};
   MarkerLayout layout;  ///< the layout passed to find_film_frame()
@@ -26,7 +26,9 @@ struct ObjectPoints {
 };
 
 /// Selects the points that may belong to the object.
-/// @param frame  points at its markers are dropped, with a wider margin around displaced markers
+/// @param frame  points at its markers are dropped, with a wider margin around markers that were
+/// not
+///               used, because these may be displaced
 [[nodiscard]] ObjectPoints object_points(const scan::Cloud& cloud, const FilmFrame& frame,
                                          const Surroundings& surroundings);
 

@@ -66,14 +66,16 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
       too_large = large;
     }
   }
-  const std::string what = fmt::format("the mesh is {} mm across, the object in view {} mm",
-                                       three_digits(mesh_mm), three_digits(scan_mm));
+  const std::string what =
+      fmt::format("the mesh is {} mm across, but the object in view is {} mm across",
+                  three_digits(mesh_mm), three_digits(scan_mm));
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
                 what + ". Use the complete mesh of the object in the gripper", "NOT_THIS_OBJECT");
   return fail(Code::kFailedPrecondition,
               fmt::format("{}. {} {}. Give a scale {} times {}", what,
-                          too_large ? "Its lengths were read as" : "Its file seems to be in",
+                          too_large ? "The lengths in the mesh were read as"
+                                    : "The mesh file seems to be in",
                           best->name, best->mm, too_large ? "smaller" : "larger"),
               "WRONG_UNITS");
 }

@@ -26,11 +26,11 @@ TEST(Points, FilmColumnsPrecedeSurfaceColumns) {
 TEST(Points, BadFilesAreRefusedByLineWithARemedy) {
   const std::string write = "Write film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "line 1: not the header"},
+      {"", "line 1: wrong header"},
       {"film_x_mm,film_y_mm,X_mm,Y_mm\n1,2,3,4\n",
-       "line 1: not the header: no column Z_mm. " + write},
+       "line 1: wrong header: no column Z_mm. " + write},
       {kHeader, "line 2: no points. Write one"},
-      {kHeader + "1,2,3,4\n", "line 2: not 5 finite numbers but 4 cells. " + write},
+      {kHeader + "1,2,3,4\n", "line 2: not 5 finite numbers: the number of cells is 4. " + write},
       {kHeader + "1,2,3,4,5\n1,2,nan,4,5\n",
        "line 3: not 5 finite numbers: X_mm is 'nan'. " + write},
       {kHeader + "1,2,3,four,5\n", "line 2: not 5 finite numbers: Y_mm is 'four'. " + write},

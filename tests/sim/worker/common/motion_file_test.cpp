@@ -28,9 +28,9 @@ TEST(MotionFile, ImmersionAndOffsetCountFromTheFirstRow) {
 TEST(MotionFile, InvalidMotionsAreRefusedByLine) {
   const std::string header = "t_s,x_mm,y_mm,z_mm\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "line 1: not the header"},
-      {"0,0,0,0\n1,0,0,-1\n", "line 1: not the header"},
-      {"t,x,y,z\n0,0,0,0\n1,0,0,-1\n", "line 1: not the header"},
+      {"", "line 1: wrong header"},
+      {"0,0,0,0\n1,0,0,-1\n", "line 1: wrong header"},
+      {"t,x,y,z\n0,0,0,0\n1,0,0,-1\n", "line 1: wrong header"},
       {header, "fewer than two rows"},
       {header + "0,0,0,0\n", "fewer than two rows"},
       {header + "0,0,0,0\n1,0,0\n", "line 3: not 4 finite numbers"},
