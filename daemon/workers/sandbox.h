@@ -21,7 +21,7 @@ struct Limits {
 /// before starting workers; confine() runs in the child.
 class Sandbox {
  public:
-  /// Returns kFailedPrecondition if the kernel or the seccomp library does not support it.
+  /// Returns kFailedPrecondition if the kernel or the seccomp library cannot filter system calls.
   [[nodiscard]] static Result<Sandbox> make();
 
   /// Confines the calling process permanently. Runs between fork and exec, so it acquires no locks.

@@ -70,9 +70,9 @@ class WorkerRun {
   StopReason stopped_ = StopReason::kNothing;
   std::optional<Time> kill_at_;
   std::optional<int> wait_status_;
-  std::string words_;                 // end of its stderr
-  std::string answer_;                // end of its stdout
-  std::string progress_bytes_;        // an incomplete line
+  std::string words_;                 // last bytes of the worker's stderr
+  std::string answer_;                // last bytes of the worker's stdout
+  std::string progress_bytes_;        // received bytes of an incomplete line
   std::optional<Progress> progress_;  // not yet reported
   Time next_report_, next_end_;
   std::future<Result<Outcome>> publishing_;
