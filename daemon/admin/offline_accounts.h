@@ -13,7 +13,7 @@ namespace hydroprint::admin {
                                     const std::string& password);
 
 /// Creates a link with which the user can sign in once, within 15 minutes, and returns its token.
-/// @return USER_NOT_FOUND; kFailedPrecondition for a barred user
+/// @return USER_NOT_FOUND; kFailedPrecondition for a disabled user
 [[nodiscard]] Result<std::string> sign_in_link(State& state, const std::string& user);
 
 }  // namespace hydroprint::admin

@@ -14,8 +14,9 @@ namespace hydroprint::daemon {
 /// All settings with their defaults: one member for each key of the TOML file. Comments state
 /// section and key; deploy/hydroprintd.toml.example explains each.
 struct Config {
-  std::string server_grpc = "127.0.0.1:50051";   ///< server.grpc: address and port; port 0: any
-  bool server_reflection = true;                 ///< server.reflection
+  std::string server_grpc =
+      "127.0.0.1:50051";          ///< server.grpc: address and port for gRPC; port 0: any free one
+  bool server_reflection = true;  ///< server.reflection
   std::string server_http = "127.0.0.1:8080";    ///< server.http: address and port for HTTP
   std::string server_host_names;                 ///< server.host_names, separated by spaces
   std::string server_tls_certificate;            ///< server.tls_certificate: file; empty: no TLS
@@ -34,7 +35,7 @@ struct Config {
   std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
   std::string workers_program;                   ///< workers.program; empty: next to hydroprintd
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
-  /// workers.threads per worker; 0: the cores divided by workers.
+  /// workers.threads per worker; 0: the cores are divided among the workers.
   std::int64_t workers_threads = 0;
   std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
@@ -48,8 +49,8 @@ struct Config {
   std::string camera_device;                 ///< camera.device: OpenNI2's name; empty: no camera
   std::string camera_program;                ///< camera.program; empty: next to hydroprintd
   std::int64_t camera_patience_s = 5;        ///< camera.patience_s: timeout for answers
-  std::string camera_layout;                 ///< camera.layout: file with markers and camera
-  double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: unknown
+  std::string camera_layout;           ///< camera.layout: file that describes markers and camera
+  double camera_gripper_water_mm = 0;  ///< camera.gripper_water_mm; 0: unknown
   std::string people_accounts = "loopback-open";  ///< people.accounts: this or "required"
   std::int64_t people_password_memory_mib = 64;   ///< people.password_memory_mib
   std::int64_t people_password_passes = 3;        ///< people.password_passes
@@ -61,7 +62,7 @@ struct Config {
   bool operator==(const Config&) const = default;
 };
 
-/// Returns the names of all keys, "section.key", in the order of the example.
+/// Returns the names of all keys, "section.key", in the order of deploy/hydroprintd.toml.example.
 [[nodiscard]] std::vector<std::string> config_keys();
 
 /// Reads and checks a TOML file; missing keys keep their defaults.
@@ -89,7 +90,7 @@ struct Endpoint {
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
 /// Returns the default state folder, $XDG_STATE_HOME/hydroprint or ~/.local/state/hydroprint;
-/// kFailedPrecondition if neither variable is set.
+/// kFailedPrecondition if neither XDG_STATE_HOME nor HOME is set.
 [[nodiscard]] Result<std::filesystem::path> default_state_dir();
 
 }  // namespace hydroprint::daemon

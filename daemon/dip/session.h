@@ -96,8 +96,7 @@ class DipSession {
   std::int64_t begun_ms_;
   std::string confirmed_by_;  // lease holder who confirmed the step that is ending
 
-  std::uint64_t motion_ =
-      0;  // number of the motion that is in progress or not yet at rest; 0: none
+  std::uint64_t motion_ = 0;  // number of the motion until it is at rest; 0: none
   std::uint64_t next_sample_ = 0;
   std::vector<rig::Sample> descent_;
   dip::PositionLog log_;
