@@ -14,17 +14,16 @@ namespace hydroprint::daemon {
 /// All settings with their defaults: one member for each key of the TOML file. Comments state
 /// section and key; deploy/hydroprintd.toml.example explains each.
 struct Config {
-  std::string server_grpc =
-      "127.0.0.1:50051";          ///< server.grpc: address and port for gRPC; port 0: any free one
-  bool server_reflection = true;  ///< server.reflection
-  std::string server_http = "127.0.0.1:8080";    ///< server.http: address and port for HTTP
-  std::string server_host_names;                 ///< server.host_names, separated by spaces
-  std::string server_tls_certificate;            ///< server.tls_certificate: file; empty: no TLS
-  std::string server_tls_key;                    ///< server.tls_key: file; empty: no TLS
-  std::string server_web_dir;                    ///< server.web_dir; empty: as installed
-  std::string store_state_dir;                   ///< store.state_dir; empty: the user's default
-  std::int64_t store_keep_finished_days = 30;    ///< store.keep_finished_days; 0: forever
-  std::int64_t store_keep_dips_days = 365;       ///< store.keep_dips_days; 0: forever
+  std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: address and port; port 0: any free
+  bool server_reflection = true;                ///< server.reflection
+  std::string server_http = "127.0.0.1:8080";   ///< server.http: address and port for HTTP
+  std::string server_host_names;                ///< server.host_names, separated by spaces
+  std::string server_tls_certificate;           ///< server.tls_certificate: file; empty: no TLS
+  std::string server_tls_key;                   ///< server.tls_key: file; empty: no TLS
+  std::string server_web_dir;                   ///< server.web_dir; empty: as installed
+  std::string store_state_dir;                  ///< store.state_dir; empty: the user's default
+  std::int64_t store_keep_finished_days = 30;   ///< store.keep_finished_days; 0: forever
+  std::int64_t store_keep_dips_days = 365;      ///< store.keep_dips_days; 0: forever
   std::int64_t store_max_mib_per_owner = 20480;  ///< store.max_mib_per_owner; 0: no limit
   std::int64_t store_min_free_mib = 512;         ///< store.min_free_mib
   std::int64_t assets_max_mib = 1024;            ///< assets.max_mib, per file

@@ -15,9 +15,9 @@ namespace hydroprint::daemon {
 /// and makes RigReference check for homing.
 class RigMonitor {
  public:
-  /// @param set_serving  called at the start and after every change; true: the rig is usable, as
-  /// far as
-  ///              known (not OFFLINE, FAULT or ESTOPPED)
+  /// @param set_serving  called at the start and after every change; its argument is whether the
+  /// rig
+  ///                     is usable: not OFFLINE, FAULT or ESTOPPED
   RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> set_serving);
 
  private:
