@@ -51,8 +51,8 @@ struct Facts {
 [[nodiscard]] rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples,
                                                  std::uint64_t motion, double contact_mm);
 
-/// Writes the position log, positions.csv. Samples are written as they arrive, so the file survives
-/// a crash.
+/// Writes the position log, positions.csv. Samples are appended during the dip, so after a crash at
+/// most those since the last flush() are missing.
 class PositionLog {
  public:
   static constexpr const char* kName = "positions.csv";
