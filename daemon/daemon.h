@@ -39,7 +39,7 @@ namespace hydroprint::daemon {
 class Daemon {
  public:
   /// Locks the state folder, repairs the store after a crash, starts listening and starts workers.
-  /// Interrupted jobs are queued again.
+  /// Computed jobs that were interrupted are queued again.
   /// @param first_admin  name of a user, who is created if necessary and gets a link that signs
   ///                     them in once as admin, within 15 minutes; empty: no link
   /// @return for `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS if the user exists

@@ -6,8 +6,8 @@
 
 namespace hydroprint::admin {
 
-/// Sets a user's password, ends all of their sessions and links, and waits until a running daemon
-/// has read the change.
+/// Sets a user's password, ends all of the user's sessions and sign-in links, and waits until a
+/// running daemon has read the change.
 /// @return USER_NOT_FOUND, SPEC_INVALID; kUnavailable if the daemon does not respond
 [[nodiscard]] Status reset_password(State& state, const std::string& user,
                                     const std::string& password);

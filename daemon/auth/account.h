@@ -17,7 +17,7 @@ struct User {
   std::string name;
   Role role = Role::kViewer;
   bool disabled = false;
-  std::string password;  ///< result of hash_password(); empty: no password
+  std::string password;  ///< result of Passwords::hash(); empty: no password
   std::int64_t create_ms = 0;
 };
 

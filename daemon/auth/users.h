@@ -17,7 +17,7 @@ struct UserChange {
   std::optional<bool> disabled;
 };
 
-/// The users. Thread-safe.
+/// Creates, changes and deletes users. Thread-safe.
 ///
 /// Methods that take a user's name return kNotFound, USER_NOT_FOUND for an unknown name, and the
 /// disk errors of Database::run().

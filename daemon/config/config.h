@@ -65,7 +65,7 @@ struct Config {
 [[nodiscard]] std::vector<std::string> config_keys();
 
 /// Reads and checks a TOML file; missing keys keep their defaults.
-/// @return kNotFound if the file does not exist; kInvalidArgument, as one line with file, line and
+/// @return kNotFound if the file cannot be read; kInvalidArgument, as one line with file, line and
 ///         remedy, for invalid TOML, an unknown key, a wrong type or a value out of range
 [[nodiscard]] Result<Config> read_config(const std::filesystem::path& path);
 
@@ -79,7 +79,7 @@ struct Endpoint {
 
   /// Returns "127.0.0.1:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Returns whether only this machine can reach it.
+  /// Returns whether only this machine can reach the address.
   [[nodiscard]] bool is_loopback() const;
 };
 

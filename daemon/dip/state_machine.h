@@ -67,7 +67,7 @@ struct Event {
     kConfirm,  ///< the operator has completed `step`
     kAtDepth,  ///< the descent has reached the depth
     kRising,   ///< the retraction has begun
-    /// The motion is complete: the rise of kClear, or the whole dip from descent to retraction.
+    /// The motion is complete: the rise in step CLEAR, or the whole dip from descent to retraction.
     kMotionDone,
     kMotionStopped,  ///< the motion was stopped on request
     kMotionFailed,   ///< the motion failed

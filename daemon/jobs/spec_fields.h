@@ -9,8 +9,8 @@
 namespace hydroprint::daemon {
 
 // Checks that several kinds share, for fields that depend on each other; the rules of single fields
-// are in the .proto. `Spec` is a message of proto/hydroprint/v1/spec.proto that has these fields.
-// `kind` is the name of the kind's field in Job ("print_image"), for errors.
+// are in the .proto file. `Spec` is a message of proto/hydroprint/v1/spec.proto that has these
+// fields. `kind` is the name of the kind's field in Job ("print_image"), for errors.
 
 using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 

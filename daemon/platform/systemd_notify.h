@@ -17,7 +17,8 @@ void notify_stopping();
 /// progress. That loop must never stall, even if everything else still responds.
 class WatchdogFeeder {
  public:
-  /// Returns the number of iterations of that loop since the start; nullopt without a drive.
+  /// A function that returns the number of iterations of that loop since the start; nullopt without
+  /// a drive.
   using Rounds = std::function<std::optional<std::uint64_t>()>;
 
   explicit WatchdogFeeder(Rounds rounds);

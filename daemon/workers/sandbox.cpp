@@ -113,7 +113,7 @@ bool limit(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
 void raise_oom_score() {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
-  if (::write(file, "500", 3) < 0) errno = 0;  // only a preference
+  if (::write(file, "500", 3) < 0) errno = 0;  // not essential
   ::close(file);
 }
 
@@ -123,7 +123,7 @@ void raise_oom_score() {
 void give_way() {
   constexpr int kNiceness = 10;
   if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
-  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // only a preference
+  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // not essential
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ struct PoolOptions {
 /// no worker survives a killed daemon.
 class WorkerPool final : public JobExecutor {
  public:
-  /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
+  /// @return kFailedPrecondition if workers cannot be confined; kInternal, WORKER_UNUSABLE if the
+  /// program does not exist
   [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
                                                                 JobStore& store, JobQueue& queue,
                                                                 const Layout& layout, Clock clock);

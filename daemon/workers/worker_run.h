@@ -14,7 +14,7 @@
 namespace hydroprint::daemon {
 
 /// Runs one job in its worker, from the start of the process to the end of the job in the store.
-/// Used only by the pool's thread; never blocks.
+/// Used by one thread (of the pool or of a capture), which it never blocks.
 class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;

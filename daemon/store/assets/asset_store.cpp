@@ -95,7 +95,7 @@ Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& 
   const Status done = database_.transaction([&]() -> Status {
     const auto known = select_asset(database_, as.sha256);
     if (known && has_file(layout_, *known)) return insert_asset(database_, as, clock_());
-    discard(final_path);  // left, perhaps incomplete, by a crash
+    discard(final_path);  // left by a crash, perhaps incomplete
     HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
     ::chmod(final_path.c_str(), 0400);
     HP_RETURN_IF_ERROR(sync_path(final_path));

@@ -22,7 +22,8 @@ class AssetStore {
   /// ASSET_NOT_FOUND, also if the user may not use the asset.
   [[nodiscard]] Result<Asset> asset_for(const std::string& sha256, const AssetUser& user);
   /// Adds a complete, synced file with the hash `as.sha256` as an asset without an owner, unless
-  /// the asset exists. The file remains but becomes read-only.
+  /// the asset exists. The file itself remains; it may become read-only, because the asset may be a
+  /// hard link to it.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
   /// Returns the assets with hashes after `after`, sorted by hash, with their owners. Lists those
