@@ -31,7 +31,7 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
                 "DISK_FULL");
   }
   return fail(Code::kInternal,
-              std::string("the job database: ") + sqlite3_errmsg(db) +
+              std::string("the job database cannot be used: ") + sqlite3_errmsg(db) +
                   "; check the state folder's disk and permissions",
               "STORE_FAILED");
 }
