@@ -20,8 +20,8 @@ constexpr std::int64_t kMiB = 1 << 20;
 constexpr std::int64_t kHourMs = 3600LL * 1000;
 constexpr std::chrono::milliseconds kPatience{1000};
 
-// Number of cores that this process may use; in a container or under taskset that may be fewer than
-// the machine has.
+// Returns the number of cores that this process may use. In a container or under taskset, these may
+// be fewer than the machine has.
 int core_count() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
@@ -40,7 +40,7 @@ PoolOptions pool_options(const Config& config) {
 }
 
 PreviewOptions preview_options(const PoolOptions& pool) {
-  const std::int64_t a_day_s = 24LL * 3600;  // processor time of one worker
+  const std::int64_t a_day_s = 24LL * 3600;  // limit on the processor time of one worker
   return {pool.program,
           pool.threads > 0 ? pool.threads : pool.cores,
           {pool.memory_bytes, a_day_s, pool.file_bytes}};
@@ -101,7 +101,7 @@ Status Daemon::open_store(const Config& config) {
   asset_retention_ = std::make_unique<AssetRetention>(
       *database_, layout_, config.assets_keep_unused_days * 24 * kHourMs, system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
-  // First, since it may free space that the next step needs.
+  // sweep() comes first, since it may free disk space that the next step needs.
   HP_RETURN_IF_ERROR(job_retention_->sweep());
   HP_RETURN_IF_ERROR(end_lost_dips(*device_jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
@@ -173,7 +173,7 @@ Status Daemon::make_first_admin(const std::string& name) {
   } else if (found->role != auth::Role::kAdmin || found->disabled) {
     return fail(
         Code::kFailedPrecondition,
-        fmt::format("--first-admin: {} exists but is not an admin; name another user", name),
+        fmt::format("--first-admin: {} exists but is not an active admin; name another user", name),
         "STATE_FORBIDS");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts_->sessions().make_link(name));
@@ -239,7 +239,9 @@ Status Daemon::start_serving(const Config& config) {
   HP_RETURN_IF_ERROR(start_http(config, backend));
   if (!fences_work()) {
     log(LogLevel::kWarning, "files_not_fenced",
-        {{"message", "this kernel has no Landlock; workers can read all files of this user"}});
+        {{"message",
+          "this kernel has no Landlock, so workers can read all files of this user; use another "
+          "kernel"}});
   }
   pool_->start();
   monitor_ = std::make_unique<RigMonitor>(*gateway_, *places_,

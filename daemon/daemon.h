@@ -39,11 +39,11 @@ namespace hydroprint::daemon {
 class Daemon {
  public:
   /// Locks the state folder, repairs the store after a crash, starts listening and starts workers.
-  /// Interrupted jobs are queued again.
-  /// @param first_admin  a user for whom a link is created that signs them in once as admin, within
-  ///                     15 minutes. The user is created if necessary; empty: none
+  /// Computed jobs that were interrupted are queued again.
+  /// @param first_admin  name of a user, who is created if necessary and gets a link that signs
+  ///                     them in once as admin, within 15 minutes; empty: no link
   /// @return for `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS if the user exists
-  ///         and is not an admin
+  ///         and is not an active admin
   [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config,
                                                              const std::string& first_admin);
   /// Calls stop() if needed.

@@ -180,7 +180,7 @@ int run_command(int argc, char** argv) {
                  "Address and port to listen on; default 127.0.0.1:50051; port 0: any; beyond "
                  "loopback only with TLS and an admin who can sign in")
       ->type_name("HOST:PORT");
-  app.add_option("--http", options.http, "Same, for HTTP; default 127.0.0.1:8080")
+  app.add_option("--http", options.http, "Same as --grpc, for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");
   app.add_option(
          "--tls-certificate", options.tls_certificate,
@@ -196,7 +196,8 @@ int run_command(int argc, char** argv) {
   app.add_option("--rig", options.rig,
                  "Address of the motor's drive, such as tcp:127.0.0.1:1502; default: no rig")
       ->type_name("ENDPOINT");
-  app.add_option("--rig-profile", options.rig_profile, "Profile of that drive")->type_name("FILE");
+  app.add_option("--rig-profile", options.rig_profile, "Profile of the motor's drive")
+      ->type_name("FILE");
   app.footer("hydroprintd admin --help: backup, restore and other commands for the state folder.");
   try {
     app.parse(argc, argv);

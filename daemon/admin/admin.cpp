@@ -88,11 +88,12 @@ int run_command(int argc, char** argv) {
   to_backup->add_option("file", options.file)->required();
   CLI::App* const to_restore = add(app, "restore", "Restore a backup", options);
   to_restore->add_option("file", options.file)->required();
-  to_restore->add_flag("--replace", options.replaces, "Replace the content of the folder");
+  to_restore->add_flag("--replace", options.replaces, "Replace the content of the state folder");
   CLI::App* const to_reset = add(app, "reset-password", "Set a user's password", options);
   to_reset->add_option("user", options.user)->required();
   to_reset->add_flag("--stdin", options.from_stdin, "Read the password from standard input");
-  CLI::App* const to_link = add(app, "sign-in-link", "Make a link for signing in once", options);
+  CLI::App* const to_link =
+      add(app, "sign-in-link", "Create a link that signs the user in once", options);
   to_link->add_option("user", options.user)->required();
   try {
     app.parse(argc, argv);

@@ -82,7 +82,7 @@ Result<std::unique_ptr<ArchiveWriter>> ArchiveWriter::create(const std::filesyst
   HP_ASSIGN_OR_RETURN(impl->file, daemon::open_file(impl->part, O_WRONLY | O_CREAT | O_TRUNC));
   impl->out = archive_write_new();
   if (impl->out == nullptr) return fail(Code::kResourceExhausted, "out of memory");
-  // Stores names as bytes, whatever the locale.
+  // Stores names as bytes, regardless of the locale.
   if (archive_write_set_format_pax_restricted(impl->out) != ARCHIVE_OK ||
       archive_write_set_format_option(impl->out, "pax", "hdrcharset", "BINARY") != ARCHIVE_OK ||
       archive_write_add_filter_none(impl->out) != ARCHIVE_OK ||

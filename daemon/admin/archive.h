@@ -25,7 +25,7 @@ class ArchiveWriter {
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
 
   /// Adds `size` bytes of a file and returns their SHA-256 in hex.
-  /// @param taken  called with the number of bytes as they are written
+  /// @param taken  called after each piece with its number of bytes
   /// @return kDataLoss if the file is shorter; the rest of the entry is then filled with zeros
   [[nodiscard]] Result<std::string> add(const std::string& name, const daemon::UniqueFd& file,
                                         std::int64_t size,

@@ -26,8 +26,8 @@ struct Snapshot {
   std::unique_ptr<daemon::Database> database;
 };
 
-// Removes rows that are valid only for the running daemon. Otherwise a session that has ended since
-// could be restored.
+// Removes rows that are valid only for the running daemon. Otherwise a restore could revive a
+// session that ended after the backup.
 Status leave_out_what_passes(daemon::Database& snapshot) {
   for (const char* const table : {"uploads", "sessions", "sign_in_links", "lease"}) {
     HP_RETURN_IF_ERROR(snapshot.run(std::string("DELETE FROM ") + table));
@@ -43,7 +43,7 @@ Result<bool> is_named(daemon::Database& database, const NamedFile& file) {
   return is_there;
 }
 
-// Removes a file that cannot be read from the snapshot, together with its job if the job has been
+// Removes from the snapshot a file that cannot be read; removes its whole job if the job has been
 // deleted meanwhile.
 Status forget(daemon::Database& snapshot, const NamedFile& file, bool is_deleted) {
   if (file.job == 0) return snapshot.run("DELETE FROM assets WHERE sha256=?", {file.sha256});
@@ -78,7 +78,7 @@ class Backup {
   }
 
  private:
-  // Adds a file; false if it cannot be read or its content is wrong.
+  // Adds a file; returns false if it cannot be read or its content is wrong.
   Result<bool> take(const NamedFile& file, ProgressMeter& meter) {
     const auto in = daemon::open_file(state_.layout.root / file.name, O_RDONLY);
     if (!in) return false;

@@ -17,8 +17,8 @@ struct Contents {
 
 /// Writes a state folder to one tar archive while the daemon keeps running: a snapshot of the
 /// database, and the assets and artifacts that it refers to. Skips open uploads, records of dips in
-/// progress, sessions, links and the lease. Shows its progress on stderr. An error leaves no file
-/// behind.
+/// progress, sessions, sign-in links and the lease. Shows its progress on stderr. An error leaves
+/// no file behind.
 /// @return kAlreadyExists if the file exists; kResourceExhausted, DISK_FULL
 [[nodiscard]] Result<Contents> backup(State& state, const std::filesystem::path& file);
 
@@ -33,7 +33,7 @@ struct NamedFile {
   std::string name;  ///< "artifacts/7/film.png"
   std::int64_t size = 0;
   std::string sha256;
-  std::int64_t job = 0;  ///< 0: an asset
+  std::int64_t job = 0;  ///< id of the job that has the artifact; 0: an asset
 };
 [[nodiscard]] Result<std::vector<NamedFile>> named_files(daemon::Database& database);
 

@@ -29,7 +29,7 @@ Result<std::string> sign_in_link(State& state, const std::string& user) {
   HP_ASSIGN_OR_RETURN(const auth::User found, accounts->users().get(user));
   if (found.disabled) {
     return fail(Code::kFailedPrecondition,
-                "users/" + user + ": barred from signing in; an admin must admit this user first");
+                "users/" + user + ": this user is disabled; an admin must enable the user first");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts->sessions().make_link(user));
   HP_RETURN_IF_ERROR(note(*state.database, "sign-in-link", "users/" + user));

@@ -14,7 +14,8 @@ namespace hydroprint::admin {
 struct State {
   daemon::Layout layout;
   std::unique_ptr<daemon::Database> database;
-  /// Locked if no daemon is running, so that none can start; not valid while a daemon is running.
+  /// The folder's lock, held if no daemon is running, so that none can start. Not valid while a
+  /// daemon is running.
   daemon::UniqueFd lock;
 
   [[nodiscard]] bool daemon_runs() const { return !lock.valid(); }
@@ -23,7 +24,7 @@ struct State {
 /// Opens the store of a state folder without migrating it, because a daemon of another version may
 /// be using it.
 /// @param root  empty: the folder of this user's daemon
-/// @return kNotFound if there is none; kPermissionDenied if it belongs to another user;
+/// @return kNotFound if there is no such folder; kPermissionDenied if it belongs to another user;
 ///         kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
 [[nodiscard]] Result<State> open_state(const std::filesystem::path& root);
 

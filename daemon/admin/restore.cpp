@@ -22,7 +22,8 @@ namespace {
 
 constexpr std::int64_t kLargestManifest = 1 << 16;
 
-// Everything that a daemon keeps in its folder, except the lock.
+// Returns the names that a restore replaces in the state folder: everything except the lock and the
+// files that were set aside.
 const std::vector<std::string>& kept_names() {
   static const std::vector<std::string> all{
       "assets", "artifacts",     "uploads",           "runs",

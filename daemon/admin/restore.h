@@ -14,9 +14,9 @@ namespace hydroprint::admin {
 /// starts on the folder until the restore is repeated (RESTORE_UNFINISHED).
 /// @param root      empty: the folder of this user's daemon
 /// @param replaces  whether the content of the folder may be deleted
-/// @return kFailedPrecondition if a daemon is using the folder, the folder is not empty, or
-///         STORE_TOO_NEW; kInvalidArgument if the backup is not complete; kResourceExhausted,
-///         DISK_FULL
+/// @return kFailedPrecondition if a daemon is using the folder, or if the folder is not empty;
+///         kFailedPrecondition, STORE_TOO_NEW if a later version wrote the backup; kInvalidArgument
+///         if the backup is not complete; kResourceExhausted, DISK_FULL
 [[nodiscard]] Result<Contents> restore(const std::filesystem::path& root,
                                        const std::filesystem::path& file, bool replaces);
 

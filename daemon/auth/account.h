@@ -9,7 +9,7 @@ namespace hydroprint::auth {
 /// Permission level; numbers and meanings as in hydroprint.v1.Role.
 enum class Role : std::int8_t { kViewer = 1, kMaker = 2, kOperator = 3, kAdmin = 4 };
 
-/// Returns the role's name: "OPERATOR".
+/// Returns the role's name, for example "OPERATOR".
 [[nodiscard]] const char* name_of(Role role);
 
 /// A person who may use the daemon. Times, here and below, are Unix times in ms.
@@ -17,7 +17,7 @@ struct User {
   std::string name;
   Role role = Role::kViewer;
   bool disabled = false;
-  std::string password;  ///< result of hash_password(); empty: no password
+  std::string password;  ///< result of Passwords::hash(); empty: no password
   std::int64_t create_ms = 0;
 };
 
@@ -43,12 +43,12 @@ struct Session {
   std::int64_t use_ms = 0;
 };
 
-/// The headers of a request that identify the caller.
+/// The properties of a request that identify the caller: some headers, and the client's address.
 struct Credentials {
   std::string authorization;         ///< "Bearer KEY"; empty: none
   std::string session;               ///< token of the session cookie; empty: none
   std::optional<std::string> owner;  ///< Hydroprint-Owner: name to use if there are no users
-  std::string peer;                  ///< address without port; empty: within this process
+  std::string peer;                  ///< address without port; empty: a call within this process
 };
 
 /// The user or program that makes a request. Authenticator determines it once per request.

@@ -23,8 +23,8 @@ Session read_session(const daemon::DbRow& row) {
 
 }  // namespace
 
-// Identifying callers does not wait for this. The times at which keys and sessions were last used
-// are newer in memory than in the rows.
+// Callers can be identified while the rows are read. The times of last use in memory are kept if
+// they are newer than those in the rows.
 Status AccountRows::load() {
   const std::lock_guard write_lock(writing);
   std::map<std::string, User> new_users;

@@ -17,7 +17,8 @@ struct AccountRows {
 
   /// Reads all rows.
   [[nodiscard]] Status load();
-  /// Returns the user with that name; null for an unknown or disabled user. Hold `memory`.
+  /// Returns the user with that name; null for an unknown or disabled user. The caller must hold
+  /// `memory`.
   [[nodiscard]] const User* admitted(const std::string& name) const;
 
   daemon::Database& database;

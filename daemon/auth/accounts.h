@@ -11,7 +11,7 @@ namespace hydroprint::auth {
 struct AccountsOptions {
   PasswordCost password_cost;
   SessionOptions sessions;
-  std::size_t most_keys = 100;  ///< per user
+  std::size_t most_keys = 100;  ///< maximum number of API keys per user
 };
 
 /// Users, their API keys and sessions. They are rows of the store, with a copy in memory, so
@@ -31,8 +31,8 @@ class Accounts {
   [[nodiscard]] ApiKeys& keys() { return keys_; }
   [[nodiscard]] Sessions& sessions() { return sessions_; }
 
-  /// Returns whether an active admin can sign in: has a password, an admin's API key, an unused
-  /// link or a session. Reads the store.
+  /// Returns whether an active admin can sign in: with a password, an API key that has the role
+  /// admin, an unused link or a session. Reads the store.
   [[nodiscard]] Result<bool> has_admin_who_can_sign_in();
   /// Reads the changes made by another program (external_changes.h).
   [[nodiscard]] Status reload() { return rows_.load(); }

@@ -33,7 +33,8 @@ class ApiKeys {
   /// Creates a key and returns it with "hp_ID_SECRET", which is shown only once.
   /// Errors: KEYS_FULL, SPEC_INVALID, USER_NOT_FOUND.
   [[nodiscard]] Result<std::pair<ApiKey, std::string>> create(const NewKey& fields);
-  /// Returns the keys of a user, or of all users (empty), sorted by id, after `after`.
+  /// Returns the keys of a user with ids after `after`, sorted by id; those of all users if `user`
+  /// is empty.
   [[nodiscard]] std::vector<ApiKey> list(const std::string& user, const std::string& after,
                                          std::size_t limit) const;
   /// Returns the key with this id. Errors: KEY_NOT_FOUND.

@@ -36,8 +36,9 @@ struct AuditFilter {
 };
 
 /// Keeps a record of all actions for a year. A thread writes entries to the store, usually within
-/// milliseconds; callers may wait for it. If the store does not respond, up to 10000 entries wait
-/// in memory. Further entries are lost; an entry of its own records how many. Thread-safe.
+/// milliseconds; callers may wait until their entry is written. If the store does not respond, up
+/// to 10000 entries wait in memory. Further entries are lost; a separate entry records their
+/// number. Thread-safe.
 class AuditLog {
  public:
   AuditLog(daemon::Database& database, daemon::Clock clock);
@@ -69,8 +70,8 @@ class AuditLog {
   std::condition_variable settled_;
   std::vector<AuditEntry> waiting_;
   std::uint64_t noted_ = 0;    // number of entries recorded
-  std::uint64_t written_ = 0;  // highest number written, except lost ones
-  std::uint64_t failed_ = 0;   // highest number whose result is known
+  std::uint64_t written_ = 0;  // highest number in the last batch that was written
+  std::uint64_t failed_ = 0;   // highest number in the last batch that could not be written
   std::int64_t lost_ = 0;
   bool ending_ = false;
   std::thread thread_;

@@ -17,13 +17,13 @@ class Authenticator {
       : accounts_(accounts), open_on_loopback_(open_on_loopback) {}
 
   /// Returns the caller and marks the session or key as used.
-  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a malformed `hydroprint-owner`, if
-  ///         that name is used
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; kInvalidArgument, SPEC_INVALID for a malformed name
+  ///         in `hydroprint-owner`, if it is used
   [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials) const {
     return caller(credentials, true);
   }
   /// Checks that the credentials of a caller are still valid. Streams call this several times a
-  /// second and end if they are not. Does not mark the session as used.
+  /// second and end if it fails. Does not mark the session or key as used.
   /// @return kUnauthenticated, SIGN_IN_NEEDED
   [[nodiscard]] Status check_still(const auth::Caller& caller) const;
 

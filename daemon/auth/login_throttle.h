@@ -12,10 +12,9 @@ namespace hydroprint::auth {
 
 /// Limits sign-in attempts. After a few failures each further attempt has to wait 1 s, 2 s, 4 s and
 /// so on. The longest wait is 1 min for a combination of name and address, 30 s for an address, and
-/// 10 s for a name from any address.
-/// No user is locked out: if a name has signed in from an address before, only failures of that
-/// combination count for it. An hour without attempts resets all counters. Uses bounded memory.
-/// Thread-safe.
+/// 10 s for a name from any address. No user is locked out: if a name has signed in from an address
+/// before, only failures with this name from this address delay a further attempt. An hour without
+/// attempts resets all counters. Uses bounded memory. Thread-safe.
 class LoginThrottle {
  public:
   explicit LoginThrottle(daemon::Clock clock) : clock_(std::move(clock)) {}
@@ -24,7 +23,7 @@ class LoginThrottle {
   /// called. Otherwise returns the time to wait in ms, and does not count the attempt.
   [[nodiscard]] std::int64_t begin(const std::string& name, const std::string& peer);
   void succeeded(const std::string& name, const std::string& peer);
-  /// Counts a failed attempt without a name.
+  /// Counts a failed attempt without a name: one with a sign-in link.
   void reject();
   /// Returns the number of failures since the daemon started.
   [[nodiscard]] std::int64_t failures() const;

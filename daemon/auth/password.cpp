@@ -29,7 +29,7 @@ struct Passwords::Impl {
   PasswordCost cost;
   Permits permits{2};
   std::once_flag once;
-  // Hash to compare with if a user has no password, so that the check takes as long.
+  // Hash to compare with if a user has no password, so that the check takes the same time.
   std::string nobodys;
 };
 

@@ -18,7 +18,8 @@ inline constexpr std::int64_t kLeastPasswordMemory_kib = 8;
 /// Returns SPEC_INVALID for a password of less than 10 or more than 1000 bytes.
 [[nodiscard]] Status check_password_length(const std::string& password);
 
-/// Hashes and checks passwords, at most two at a time, because each needs much memory. Thread-safe.
+/// Hashes and checks passwords, at most two at a time, because each check needs much memory.
+/// Thread-safe.
 class Passwords {
  public:
   explicit Passwords(const PasswordCost& cost);
@@ -31,7 +32,7 @@ class Passwords {
   [[nodiscard]] Result<std::string> hash(const std::string& password);
 
   /// Returns whether the password matches. If the user has no password (`hashed` is empty), the
-  /// result is false after the same time. Errors as above.
+  /// result is false after the same time. Errors as in hash().
   [[nodiscard]] Result<bool> check(const std::string& password, const std::string& hashed);
 
  private:

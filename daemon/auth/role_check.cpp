@@ -17,7 +17,7 @@ Result<Need> need_of(const MethodDescriptor& method) {
     return is_open ? Need() : Need(static_cast<auth::Role>(role));
   }
   return fail(Code::kInternal, method.full_name() +
-                                   ": declares no access rule; add either the option "
+                                   ": must declare exactly one access rule: the option "
                                    "role or without_sign_in (hydroprint/v1/access.proto)");
 }
 

@@ -26,8 +26,8 @@ using Need = std::optional<auth::Role>;
 using OnRefusal =
     std::function<void(const auth::Caller& caller, std::string_view method, const Error& error)>;
 
-/// Authorizes requests by their headers. Both endpoints check roles only here, before they read a
-/// message or a body. Thread-safe.
+/// Authorizes requests by their headers. gRPC and HTTP requests are checked only here, before their
+/// message or body is read. Thread-safe.
 class RoleCheck {
  public:
   /// @param services  full names: "hydroprint.v1.JobService"

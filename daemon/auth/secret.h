@@ -17,7 +17,7 @@ namespace hydroprint::auth {
 /// Compares two texts in a time that does not depend on where they differ.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// Returns the token that a page must send with every change in its session (see the header in
+/// Returns the token that a page must send with every change in its session (see check_csrf() in
 /// daemon/http): the HMAC-SHA-256 of a fixed text with the session token as key. It does not reveal
 /// the session token, and cannot be computed without it. Scripts cannot read the session token.
 [[nodiscard]] std::string csrf_token(std::string_view session_token);

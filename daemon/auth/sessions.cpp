@@ -50,7 +50,7 @@ std::optional<Caller> Sessions::caller(std::string_view token, bool is_use) {
 
 Status Sessions::check_password(const std::string& name, const std::string& password,
                                 const std::string& peer) {
-  const std::string key = name.substr(0, 64);  // stores no more than this of untrusted text
+  const std::string key = name.substr(0, 64);  // limits the untrusted text that is stored
   if (const std::int64_t wait_ms = attempts_.begin(key, peer); wait_ms > 0) {
     return too_many_attempts(wait_ms);
   }

@@ -17,7 +17,7 @@ struct SessionOptions {
   std::int64_t idle_ms = 12LL * 3600 * 1000;
   std::int64_t most_ms = 7LL * 24 * 3600 * 1000;
   std::int64_t link_ms = 15LL * 60 * 1000;
-  std::size_t most = 50;  ///< per user; a further session ends the least recently used one
+  std::size_t most = 50;  ///< sessions per user; a further session ends the least recently used one
 };
 
 /// A new session.
@@ -58,7 +58,8 @@ class Sessions {
   /// Returns the number of failed sign-in attempts since the daemon started.
   [[nodiscard]] std::int64_t failed_attempts() const { return attempts_.failures(); }
 
-  /// Returns the valid sessions of a user, or of all users (empty), sorted by id, after `after`.
+  /// Returns the valid sessions of a user with ids after `after`, sorted by id; those of all users
+  /// if `user` is empty.
   [[nodiscard]] std::vector<Session> list(const std::string& user, const std::string& after,
                                           std::size_t limit) const;
   /// Returns the session with this id. Errors: SESSION_NOT_FOUND.

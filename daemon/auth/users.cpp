@@ -57,7 +57,8 @@ std::vector<User> Users::list(const std::string& after, std::size_t limit) const
   return out;
 }
 
-// Checks as if `instead` replaced the user of that name; null: as if the user were deleted.
+// Checks that an active admin remains if `instead` replaces the user of that name, or, if it is
+// null, if the user is deleted.
 Status Users::check_admin_without(const std::string& name, const User* instead) const {
   const std::lock_guard lock(rows_.memory);
   if (instead != nullptr && is_active_admin(*instead)) return {};
@@ -82,8 +83,9 @@ Status Users::write(const User& user) {
   return {};
 }
 
-// A new user gets the data stored under their name. Before there were users, names were claimed
-// freely; only the names of deleted users may belong to somebody else.
+// A new user may use the data stored under their name. Before there were users, callers chose their
+// names themselves, so this data is assumed to be theirs. Only the name of a deleted user may have
+// belonged to somebody else.
 Status Users::check_name_is_free(const std::string& name) {
   bool is_borne = false;
   HP_RETURN_IF_ERROR(rows_.database.each(
@@ -171,7 +173,8 @@ Status Users::remove(const std::string& name) {
   const Status done = rows_.database.transaction([&]() -> Status {
     HP_RETURN_IF_ERROR(
         rows_.database.run("INSERT OR REPLACE INTO former_users VALUES (?,?)", {name, clock_()}));
-    return rows_.database.run("DELETE FROM users WHERE name=?", {name});  // with dependent rows
+    return rows_.database.run("DELETE FROM users WHERE name=?",
+                              {name});  // also deletes dependent rows
   });
   HP_RETURN_IF_ERROR(done);
   const std::lock_guard lock(rows_.memory);

@@ -17,10 +17,10 @@ struct UserChange {
   std::optional<bool> disabled;
 };
 
-/// The users. Thread-safe.
+/// Creates, changes and deletes users. Thread-safe.
 ///
-/// Methods that name a user return kNotFound, USER_NOT_FOUND for an unknown name, and the disk
-/// errors of Database::run().
+/// Methods that take a user's name return kNotFound, USER_NOT_FOUND for an unknown name, and the
+/// disk errors of Database::run().
 class Users {
  public:
   Users(AccountRows& rows, Passwords& passwords, daemon::Clock clock)
@@ -33,8 +33,8 @@ class Users {
   [[nodiscard]] std::vector<User> list(const std::string& after, std::size_t limit) const;
   /// Creates a user.
   /// @param password  empty: the user cannot sign in with a password
-  /// @param returns   whether this is the earlier user of that name, who gets back the data stored
-  /// under it
+  /// @param returns  whether this is the former user of that name, who may use the data stored
+  /// under it again
   /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if the first user is not an admin;
   /// kFailedPrecondition, USER_NAME_USED if jobs, assets, calibrations or the audit log still refer
   /// to a deleted user of that name
@@ -46,7 +46,7 @@ class Users {
   /// @param password  empty: removes the password
   [[nodiscard]] Result<User> set_password(const std::string& name, const std::string& password,
                                           const std::string& spared);
-  /// Deletes a user with keys and sessions. Errors: LAST_ADMIN.
+  /// Deletes a user together with the user's keys and sessions. Errors: LAST_ADMIN.
   [[nodiscard]] Status remove(const std::string& name);
 
  private:

@@ -109,7 +109,7 @@ Status check_may_see(const Caller& caller, const Job& job) {
 
 Status check_may_change(const Caller& caller, const Job& job) {
   if (is_theirs(caller, job.definition.owner)) return {};
-  return not_yours(caller, job, "ask them, or an operator");
+  return not_yours(caller, job, "ask them or an operator to do this");
 }
 
 v1::Job shown_to(const Caller& caller, const Job& job) {

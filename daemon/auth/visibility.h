@@ -29,9 +29,9 @@ namespace hydroprint::daemon {
 /// the same owner.
 void hide_files(const auth::Caller& caller, v1::Calibration& calibration);
 
-/// Checks that a caller may create a job. Returns ROLE_TOO_LOW for a missing role; NOT_YOURS or
-/// JOB_NOT_FOUND if the job refers to one that the caller may not see; ASSET_MISSING for files that
-/// the caller may not use.
+/// Checks that a caller may create a job. Returns ROLE_TOO_LOW if the caller's role is lower than
+/// `needed`; NOT_YOURS or JOB_NOT_FOUND if the job refers to one that the caller may not see;
+/// ASSET_MISSING for files that the caller may not use.
 [[nodiscard]] Status check_may_create(const auth::Caller& caller, auth::Role needed,
                                       const v1::Job& job, JobStore& jobs, Database& database);
 

@@ -16,7 +16,8 @@ constexpr std::size_t kLargestPicture = 4 << 20;
 constexpr std::size_t kReadAtOnce = 1 << 20;
 constexpr std::size_t kWordsHeld = 16 << 10;
 constexpr std::chrono::seconds kTimeToEnd{2};
-// Longer than the program's own timeout for the camera, whose error message is more precise.
+// Added to the program's own timeout for the camera, so that the program can report its more
+// precise error first.
 constexpr std::chrono::seconds kStartupMargin{10};
 constexpr std::int64_t kDay_s = 24LL * 3600;
 constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";

@@ -31,7 +31,7 @@ class CameraProcess {
   CameraProcess& operator=(const CameraProcess&) = delete;
 
   /// Returns descriptors that become readable when read() or has_ended() should be called; negative
-  /// ones never do.
+  /// ones never become readable.
   [[nodiscard]] std::vector<int> descriptors() const;
   /// Returns the pictures received since the last call.
   [[nodiscard]] std::vector<FramedMessage> read(Time now);
@@ -40,17 +40,17 @@ class CameraProcess {
   /// Returns whether the process has ended and released the camera. Kills it if it was silent for
   /// too long.
   [[nodiscard]] bool has_ended(Time now);
-  /// Returns why it ended, unless it was asked to end.
+  /// Returns why the process ended; nullopt if it is running or was asked to end.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
   CameraProcess(std::filesystem::path folder, std::chrono::seconds patience);
 
   std::filesystem::path folder_;
-  std::chrono::seconds patience_;  ///< maximum silence
+  std::chrono::seconds patience_;  ///< maximum time without output
   ChildProcess process_;
   Time last_output_;
-  std::optional<Time> kill_at_;  ///< set if it was asked to end
+  std::optional<Time> kill_at_;  ///< set if the process was asked to end
   bool timed_out_ = false;       ///< the process was killed because it sent nothing for too long
   bool is_readable_ = true;      ///< its pipe is open, and all messages were well-formed
   std::string buffer_;           ///< received bytes of an incomplete picture

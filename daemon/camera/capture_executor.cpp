@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTick_ms = 50;
 constexpr std::chrono::milliseconds kStoreAgainAfter{500};
-// Time to start, to open the camera and to write the frames.
+// Time allowed for starting, for opening the camera and for writing the frames.
 constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
 constexpr double kDefaultSeconds = 2;
@@ -72,7 +72,9 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   const v1::CaptureSpec& spec = request.job.capture();
   const double seconds = spec.has_seconds() ? spec.seconds() : kDefaultSeconds;
   const std::lock_guard lock(mutex_);
-  if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
+  if (end_)
+    return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
+                "SHUTTING_DOWN");
   HP_ASSIGN_OR_RETURN(auto earlier,
                       dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
@@ -80,7 +82,8 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   const RigPlace place = dependencies_.places.place();
   HP_RETURN_IF_ERROR(dependencies_.places.keep());
   HP_ASSIGN_OR_RETURN(Job job, dependencies_.jobs.create(request.definition, request.key));
-  // The store allows only one capture at a time.
+  // The thread of the last capture is about to end, because the store allows only one capture at a
+  // time.
   if (thread_.joinable()) thread_.join();
   if (const Status noted = dependencies_.calibrations.note_capture(job.id, place); !noted) {
     give_up(job, noted.error());

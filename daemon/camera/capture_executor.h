@@ -30,8 +30,8 @@ struct CaptureDependencies {
   Clock clock;
 };
 
-/// Captures depth frames, one capture at a time. Each is a process of hydroprint-capture with its
-/// own monitoring thread, so a driver that hangs or crashes does no harm. Thread-safe.
+/// Captures depth frames, one capture at a time. Each capture is a process of hydroprint-capture
+/// with its own monitoring thread, so a driver that hangs or crashes does no harm. Thread-safe.
 class CaptureExecutor final : public JobExecutor {
  public:
   /// @param dependencies  must outlive this object

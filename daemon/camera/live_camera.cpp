@@ -98,7 +98,7 @@ Result<LivePicture> LiveCamera::recent_picture(const std::function<bool()>& gone
   HP_RETURN_IF_ERROR(check_camera(camera_));
   std::unique_lock lock(mutex_);
   const Time start = LiveClock::now();
-  if (start >= wanted_until_) failure_.reset();  // from earlier viewers
+  if (start >= wanted_until_) failure_.reset();  // it may be left from earlier viewers
   wanted_until_ = start + kExpiry;
   wake();
   if (waiting_ >= kMaxWaiting) {

@@ -39,7 +39,7 @@ class LiveCamera {
   LiveCamera& operator=(const LiveCamera&) = delete;
 
   /// Returns a picture of the last 3 s; waits up to 5 s for one.
-  /// @param gone  returns whether the caller has disconnected; polled
+  /// @param gone  called repeatedly; returns whether the client has disconnected
   /// @return errors as described in CameraService.GetDepthPicture; kCancelled; kUnavailable,
   ///         SHUTTING_DOWN
   [[nodiscard]] Result<LivePicture> recent_picture(const std::function<bool()>& gone);
@@ -53,8 +53,8 @@ class LiveCamera {
   using Reservation = std::unique_ptr<LiveCamera, Releaser>;
   /// Lends the camera to a job, one at a time. No pictures are shown meanwhile.
   [[nodiscard]] Reservation reserve(std::int64_t job);
-  /// Waits up to 5 s until a lent camera is free. If the camera hangs for longer, the job reports
-  /// it.
+  /// Waits up to 5 s until the process that shows pictures has ended. If the camera hangs for
+  /// longer, the job reports it.
   void wait_until_free();
 
   /// Ends the process; waiting calls return an error.
@@ -83,7 +83,7 @@ class LiveCamera {
   std::condition_variable change_;
   std::unique_ptr<CameraProcess> process_;
   std::int64_t reserved_for_ = 0;                  // job id; 0: not lent
-  Time wanted_until_, retry_time_, picture_time_;  // picture_time_: time of the picture
+  Time wanted_until_, retry_time_, picture_time_;  // picture_time_: arrival of picture_
   std::optional<LivePicture> picture_;
   std::optional<Error> failure_;  // failure of the latest attempt, while a client watches
   int waiting_ = 0;

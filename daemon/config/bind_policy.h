@@ -13,8 +13,8 @@ namespace hydroprint::daemon {
 /// certificate without its key or the reverse. The message names the missing key.
 [[nodiscard]] Status check_exposure(const Config& config);
 
-/// Refuses (kFailedPrecondition, SIGN_IN_NEEDED) an address beyond loopback while no admin can sign
-/// in. Remote callers need a user, and nobody could create one.
+/// Returns kFailedPrecondition, SIGN_IN_NEEDED for an address beyond loopback while no admin can
+/// sign in. Remote callers need a user, and nobody could create one.
 [[nodiscard]] Status check_admin(const Config& config, auth::Accounts& accounts);
 
 }  // namespace hydroprint::daemon

@@ -14,7 +14,8 @@ struct CameraConfig {
   std::string device;
   std::filesystem::path program;  ///< hydroprint-capture
   int patience_s = 5;             ///< timeout for a camera that does not respond
-  std::filesystem::path layout;   ///< TOML file with the markers and the camera; empty: none
+  std::filesystem::path
+      layout;  ///< TOML file that describes the markers and the camera; empty: none
   /// Axis position at which the gripper's lower end is level with the water, if known.
   std::optional<double> gripper_water_mm;
 };

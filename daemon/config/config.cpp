@@ -318,8 +318,8 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   in6_addr v6{};
   if (inet_pton(AF_INET, host.c_str(), &v4) != 1 && inet_pton(AF_INET6, host.c_str(), &v6) != 1) {
     return refused(
-        "is not an address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all "
-        "addresses of this machine, or one of them");
+        "has no IP address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all "
+        "addresses of this machine, or one of these addresses");
   }
   endpoint.host = host;
   return endpoint;

@@ -66,7 +66,9 @@ Result<Job> DipExecutor::create(const JobRequest& request) {
   HP_ASSIGN_OR_RETURN(const Order order, order_of(request));
   const dip::Plan& plan = order.plan;
   const std::lock_guard lock(mutex_);
-  if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
+  if (end_)
+    return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
+                "SHUTTING_DOWN");
   HP_ASSIGN_OR_RETURN(auto earlier,
                       dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);

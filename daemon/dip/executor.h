@@ -25,7 +25,8 @@ class DipExecutor final : public JobExecutor {
   /// virtual.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
-  /// See DipSession::confirm. After the end of a dip, only completed steps can be confirmed again.
+  /// See DipSession::confirm. After the end of a dip, completed steps can still be confirmed again,
+  /// which changes nothing.
   [[nodiscard]] Result<Job> confirm(std::int64_t job, dip::Step step, const std::string& holder);
   /// Stops the motion of a dip immediately; the dip ends as CANCELLED.
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
@@ -41,7 +42,7 @@ class DipExecutor final : public JobExecutor {
   [[nodiscard]] Result<Order> order_of(const JobRequest& request) const;
   [[nodiscard]] Status check_rig(const dip::Plan& plan) const;
   void loop();
-  void wake();  // needs mutex_
+  void wake();  // the caller must hold mutex_
 
   DipDependencies dependencies_;
   mutable std::mutex mutex_;

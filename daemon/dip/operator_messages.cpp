@@ -34,14 +34,14 @@ std::string instruction(Step step, const Plan& plan) {
                  : fmt::format("the object rises by {:g} mm; keep your hands away",
                                plan.clearance_mm);
     case Step::kLayFilm:
-      return "lay the film on the water between the bars, ink side up; then confirm: its clock "
-             "starts";
+      return "lay the film on the water between the bars, ink side up; then confirm: the "
+             "soaking time starts";
     case Step::kSoak:
       return fmt::format("the film soaks for {:g} s", plan.clocks.soak_s);
     case Step::kSprayActivator:
       return fmt::format(
-          "spray {:.1f} ml of activator evenly over the film ({:g} ml/m2); then confirm: its clock "
-          "starts",
+          "spray {:.1f} ml of activator evenly over the film ({:g} ml/m2); then confirm: the "
+          "activation time starts",
           plan.activator_ml(), plan.activator_ml_per_m2);
     case Step::kActivate:
       return fmt::format("the activator works for {:g} s", plan.clocks.activator_wait_s);
@@ -95,17 +95,18 @@ std::string advice(Step step) {
              "before it dries";
     case Step::kHold:
       return "the object is printed and under water: skim the rest of the film off the water "
-             "first, then move it up slowly and rinse it";
+             "first, then move the object up slowly and rinse it";
     case Step::kRetract:
-      return "the object is printed: skim the rest of the film off the water, move it up the rest "
-             "of its way and rinse it";
+      return "the object is printed: skim the rest of the film off the water, move the object up "
+             "the rest of the way and rinse it";
   }
   return "";
 }
 
 std::string late_words(double since_sprayed_s, const Clocks& clocks) {
-  return fmt::format("activated {:.0f} s ago; the film is good for {:.0f} s: expect a poor print",
-                     since_sprayed_s, clocks.activator_wait_s + clocks.activation_window_s);
+  return fmt::format(
+      "activated {:.0f} s ago, but the film stays good for only {:.0f} s: expect a poor print",
+      since_sprayed_s, clocks.activator_wait_s + clocks.activation_window_s);
 }
 
 }  // namespace hydroprint::dip

@@ -12,15 +12,15 @@
 namespace hydroprint::dip {
 namespace {
 
-// Weight of an operator's step in the progress.
+// Duration that the progress assumes for a step of the operator.
 constexpr double kOperator_s = 15;
 
 tl::unexpected<Error> out_of_reach(std::string message, double value_mm, rig::Range range) {
   return rig::limit_exceeded("position", std::move(message), value_mm, range);
 }
 
-/// Returns the distance needed for acceleration, so that the speed is constant when the object
-/// meets the water.
+/// Returns the distance above first contact that the descent needs for acceleration, so that the
+/// speed is constant when the object meets the water.
 double run_up_mm(const Plan& plan, const drive::DriveProfile& profile) {
   const double ramp_mm =
       plan.speed_mm_per_s * plan.speed_mm_per_s / (2 * profile.acceleration_mm_per_s2);

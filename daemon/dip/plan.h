@@ -15,11 +15,11 @@ namespace hydroprint::dip {
 /// All parameters of a dip, fixed before it begins; see hydroprint.v1.DipSpec.
 struct Plan {
   std::string simulate_job;  ///< "jobs/3"; empty: none
-  double depth_mm = 0;       ///< below first contact
+  double depth_mm = 0;       ///< distance below first contact
   double speed_mm_per_s = 5;
   double hold_s = 2;
   double retract_speed_mm_per_s = 5;
-  double clearance_mm = 20;  ///< above first contact
+  double clearance_mm = 20;  ///< distance above first contact, where the descent begins
   double film_area_mm2 = 210.0 * 297.0;
   double activator_ml_per_m2 = 16;
   Clocks clocks;
@@ -27,21 +27,21 @@ struct Plan {
   std::string calibration;  ///< "calibrations/3"; empty: none
   /// Position of first contact from the calibration; nullopt: the operator finds it.
   std::optional<double> contact_mm;
-  std::int64_t homings = 0;  ///< homing count of the rig at the calibration
+  std::int64_t homings = 0;  ///< the rig's number of homings (RigPlace) at the calibration
   Warnings warnings;         ///< reasons to expect a poor print
 
   /// Returns the amount of activator for the film.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }
 };
 
-/// Minimum distance above first contact.
+/// Minimum clearance above first contact.
 inline constexpr double kLeastClearance_mm = 1;
 
 /// Positions of the axis for a dip; positive is down.
 struct Ways {
-  double clear_mm = 0;   ///< above the water, where the descent begins
+  double clear_mm = 0;   ///< position above the water, where the descent begins
   double bottom_mm = 0;  ///< position at full depth
-  double up_mm = 0;      ///< end of the retraction: the loading position, or the clearance
+  double up_mm = 0;  ///< end of the retraction: clear_mm, or the loading position if that is higher
 };
 
 /// Checks that the speeds and the depth are within the rig's limits. Errors: kOutOfRange,

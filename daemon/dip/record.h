@@ -16,9 +16,9 @@ namespace hydroprint::dip {
 struct StepRecord {
   Step step = Step::kPrintFilm;
   double begin_s = 0;
-  std::optional<double> end_s;      ///< nullopt: the last step
-  std::optional<double> planned_s;  ///< only for clocks and motions
-  std::string confirmed_by;         ///< holder of the lease; empty: not confirmed
+  std::optional<double> end_s;      ///< nullopt: the current step
+  std::optional<double> planned_s;  ///< planned duration; only for steps with a clock or a motion
+  std::string confirmed_by;  ///< holder of the lease who confirmed the step; empty: not confirmed
 };
 
 /// Content of a dip's report.json.
@@ -27,32 +27,32 @@ struct Facts {
   std::string create_time;
   std::string drive;
   bool is_virtual = false;
-  std::string lease_holder;  ///< creator of the dip
+  std::string lease_holder;  ///< holder of the lease who created the dip
   Plan plan;
   Stand stand;
   std::optional<Ways> ways;
   std::vector<StepRecord> steps;
   Warnings warnings;
-  std::optional<double> deepest_mm;           ///< largest depth since first contact
-  std::optional<rig::ConstantSpeed> descent;  ///< below first contact
+  std::optional<double> deepest_mm;           ///< largest depth reached, below first contact
+  std::optional<rig::ConstantSpeed> descent;  ///< speed of the descent below first contact
   std::string outcome;                        ///< "SUCCEEDED"; "RUNNING" while the dip is open
-  std::string reason;                         ///< only after a failure
+  std::string reason;                         ///< reason code; only after a failure
   std::string message;
 };
 
 /// Returns the report as a JSON object.
 [[nodiscard]] std::string report_json(const Facts& facts);
 
-/// Returns the report of a dip after a restart of the daemon, with its outcome set. Returns the
-/// text unchanged if it is not a report.
+/// Returns the report `json` of a dip that was open when the daemon ended, with the outcome
+/// INTERRUPTED. Returns the text unchanged if it is not a JSON object.
 [[nodiscard]] std::string interrupted_report(const std::string& json, const std::string& message);
 
 /// Evaluates how constant the speed of the descent was below first contact.
 [[nodiscard]] rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples,
                                                  std::uint64_t motion, double contact_mm);
 
-/// Writes the position log, positions.csv. Samples are written as they arrive, so the file survives
-/// a crash.
+/// Writes the position log, positions.csv. Samples are appended during the dip, so after a crash at
+/// most those since the last flush() are missing.
 class PositionLog {
  public:
   static constexpr const char* kName = "positions.csv";
@@ -73,8 +73,8 @@ class PositionLog {
 
 inline constexpr const char* kReportName = "report.json";
 
-/// Writes report.json atomically: an error leaves the previous one. Errors: kResourceExhausted,
-/// DISK_FULL.
+/// Writes report.json atomically: after an error, the previous file remains. Errors:
+/// kResourceExhausted, DISK_FULL.
 [[nodiscard]] Status write_report(const std::filesystem::path& folder, const std::string& json);
 
 }  // namespace hydroprint::dip

@@ -26,11 +26,11 @@ using dip::Event;
 using dip::Step;
 using std::chrono::milliseconds;
 
-// Each progress report is a transaction on disk.
+// Reports are limited because each is a transaction on disk.
 constexpr milliseconds kProgressInterval{250};
 constexpr milliseconds kFlushInterval{250};
 constexpr std::chrono::seconds kStoreAgainAfter{1};
-// Timeout for reaching standstill after the computed end of the motion.
+// Time allowed for reaching standstill, in addition to the computed stopping time.
 constexpr double kRestMargin_s = 1;
 constexpr std::size_t kMostSamples =
     500'000;  // maximum number of descent samples, from which the speed is computed
@@ -290,7 +290,7 @@ void DipSession::look_at_rest() {
 bool DipSession::step() {
   look();
   dip::Step before;
-  do {  // actions without a wait follow immediately
+  do {  // steps that have nothing to wait for end immediately
     before = stand_.step;
     if (const Status done = feed({Event::Kind::kTick}); !done) {
       fail_for(done.error());

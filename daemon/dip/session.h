@@ -36,7 +36,7 @@ struct DipDependencies {
 /// commands the rig, updates the store and keeps the record. Not thread-safe.
 class DipSession {
  public:
-  /// @param job  just created; the rig is configured, homed and at rest
+  /// @param job  the job, just created; the rig must be configured, homed and at rest
   DipSession(const DipDependencies& dependencies, const Job& job, const dip::Plan& plan,
              const std::string& holder);
 
@@ -96,7 +96,7 @@ class DipSession {
   std::int64_t begun_ms_;
   std::string confirmed_by_;  // lease holder who confirmed the step that is ending
 
-  std::uint64_t motion_ = 0;  // in progress, or not yet at rest; 0: none
+  std::uint64_t motion_ = 0;  // number of the motion until it is at rest; 0: none
   std::uint64_t next_sample_ = 0;
   std::vector<rig::Sample> descent_;
   dip::PositionLog log_;

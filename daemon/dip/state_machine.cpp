@@ -104,7 +104,7 @@ Awaits awaits(Step step) {
       return Awaits::kClock;
     case Step::kClear:
     case Step::kDescend:
-    case Step::kHold:  // the axis rests, but the drive's motion continues
+    case Step::kHold:  // the axis rests, but the dip's motion is not complete
     case Step::kRetract:
       return Awaits::kMotion;
     default:

@@ -23,15 +23,15 @@ enum class Step : std::uint8_t {
 };
 inline constexpr int kSteps = 12;
 
-/// Returns the step's name: "FIND_CONTACT".
+/// Returns the step's name, for example "FIND_CONTACT".
 [[nodiscard]] std::string_view name(Step step);
 
 /// The condition that ends a step.
 enum class Awaits : std::uint8_t { kOperator, kClock, kMotion };
 [[nodiscard]] Awaits awaits(Step step);
 
-/// Returns true from the first motion on: the rig must keep its reference, and no other client may
-/// move it.
+/// Returns whether the dip has exclusive use of the rig, which is the case from its first motion
+/// on: the rig must keep its reference, and no other client may move it.
 [[nodiscard]] constexpr bool has_the_rig(Step step) { return step >= Step::kClear; }
 
 /// Durations of the clocks in s.
@@ -50,8 +50,8 @@ enum class Ending : std::uint8_t { kNone, kSucceeded, kFailed, kCancelled, kInte
 struct Stand {
   Step step = Step::kPrintFilm;
   double since_s = 0;                ///< start of the step
-  Ending ending = Ending::kNone;     ///< final; the axis may still be moving
-  double ending_s = 0;               ///< time of the decision
+  Ending ending = Ending::kNone;     ///< once set, it does not change; the axis may still be moving
+  double ending_s = 0;               ///< time at which `ending` was set
   bool over = false;                 ///< no further action follows
   bool late = false;                 ///< the film was activated too long ago
   std::optional<double> loaded_mm;   ///< axis position when the object was loaded
@@ -67,13 +67,13 @@ struct Event {
     kConfirm,  ///< the operator has completed `step`
     kAtDepth,  ///< the descent has reached the depth
     kRising,   ///< the retraction has begun
-    /// The motion is complete: the rise of kClear, or the whole dip from descent to retraction.
+    /// The motion is complete: the rise in step CLEAR, or the whole dip from descent to retraction.
     kMotionDone,
     kMotionStopped,  ///< the motion was stopped on request
     kMotionFailed,   ///< the motion failed
     kPlaceLost,      ///< at rest, the rig lost its reference or its torque
-    kOrderRefused,   ///< the last action was refused
-    kAtRest,         ///< after the decision: the axis is at rest, or no further action is possible
+    kOrderRefused,   ///< the rig refused the last action
+    kAtRest,  ///< after the ending was decided: the axis is at rest, or waiting for that timed out
     kCancel,
     kShutdown,  ///< the daemon shuts down
   };
@@ -83,7 +83,7 @@ struct Event {
   double position_mm = 0;        ///< axis position; for kTick and kConfirm
 };
 
-/// Action of the rig.
+/// The action that the rig must perform next.
 enum class Action : std::uint8_t {
   kNone,
   kRise,  ///< up to the clearance above first contact
@@ -94,15 +94,15 @@ enum class Action : std::uint8_t {
 struct Outcome {
   Stand next;
   Action action = Action::kNone;
-  bool refused = false;  ///< for kConfirm: the dip cannot be confirmed now; `next` is unchanged
+  bool refused = false;  ///< for kConfirm: the step cannot be confirmed now; the state is unchanged
 };
 
 /// Computes the next state and action after an event. Every event is valid in every state. Rules:
 /// - Steps follow one another in order; none is skipped.
-/// - A step that waits for the operator ends only by confirmation (or Clocks::skip). A clock ends
-///   when its time is over, a motion when it is complete. Confirming an earlier step changes
-///   nothing.
-/// - Motion starts only after FIND_CONTACT and START_DIP are confirmed.
+/// - A step that waits for the operator ends only by confirmation (or Clocks::skip). A step with a
+///   clock ends when its time is over, a step with a motion when the motion is complete. Confirming
+///   an earlier step changes nothing.
+/// - A motion starts only when FIND_CONTACT or START_DIP is confirmed (or Clocks::skip is set).
 /// - Once the ending is decided, the dip starts no motion and the ending does not change. The dip
 ///   is over when the axis is at rest.
 /// - A film past its activation window causes a warning, never an error.

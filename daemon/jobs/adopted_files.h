@@ -7,21 +7,22 @@
 
 namespace hydroprint::daemon {
 
-/// Turns an artifact of a finished job into an input file of another job, through an asset. The
-/// other job can then be run again after the first is deleted. Returns the errors of
-/// AssetStore::adopt().
-/// @param job   the job that has the artifact
-/// @param name  of the input file
+/// Stores an artifact of a finished job as an asset, and returns it as an input file for another
+/// job. The other job can then be run again after the finished job is deleted. Returns the errors
+/// of AssetStore::adopt().
+/// @param job   id of the finished job
+/// @param name  name of the input file
 [[nodiscard]] Result<v1::InputFile> adopt_artifact(std::int64_t job, const Artifact& artifact,
                                                    const std::string& name,
                                                    const JobSources& sources);
 
-/// Turns a text into an input file, because its source file may change.
+/// Stores a text as an asset, and returns it as an input file. Used for text from a file that may
+/// change later.
 [[nodiscard]] Result<v1::InputFile> adopt_text(const std::string& text, const std::string& name,
                                                const JobSources& sources);
 
-/// Adds the frames of a capture job as the files of one folder.
-/// @param field  of the spec that names the capture, for errors
+/// Adds the frames of a capture job to `frames`, as input files in one folder.
+/// @param field  name of the spec's field that names the capture, for errors
 /// @return errors as in earlier_job() and adopt_artifact()
 [[nodiscard]] Status adopt_frames(const std::string& capture, const std::string& field,
                                   const std::string& folder, const JobSources& sources,

@@ -13,7 +13,7 @@ namespace {
 using Staleness = v1::Calibration::Staleness;
 
 constexpr const char* kActive = "calibrations/active";
-// The axis comes to rest within a tenth of a millimetre of its target.
+// Positions that differ by less count as equal. The axis comes to rest within 0.1 mm of its target.
 constexpr double kSamePlace_mm = 0.3;
 
 tl::unexpected<Error> missing(const std::string& name, const std::string& field) {
@@ -78,7 +78,9 @@ Result<Calibration> find_calibration(const std::string& name, CalibrationStore& 
   }
   HP_ASSIGN_OR_RETURN(auto found, calibrations.active(CalibrationKind::kObject));
   if (found) return std::move(*found);
-  return fail(Code::kNotFound, "no calibration of an object is active", "CALIBRATION_NOT_FOUND");
+  return fail(Code::kNotFound,
+              "no calibration of an object is active; calibrate, or enter a calibration by hand",
+              "CALIBRATION_NOT_FOUND");
 }
 
 Result<Calibration> needed_calibration(const std::string& name, const std::string& field,

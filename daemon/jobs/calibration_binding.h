@@ -11,7 +11,8 @@ namespace hydroprint::daemon {
 /// Converts a calibration to its API message, with its validity for the current state of the rig.
 [[nodiscard]] v1::Calibration to_message(const Calibration& calibration, const RigPlace& now);
 
-/// Returns the reasons why an observation made at `then` is no longer valid.
+/// Returns the reasons why an observation made in the rig's state `then` is not valid in its state
+/// `now`.
 [[nodiscard]] std::vector<v1::Calibration::Staleness> staleness(const RigPlace& then,
                                                                 const RigPlace& now);
 
@@ -21,7 +22,7 @@ namespace hydroprint::daemon {
                                                    CalibrationStore& calibrations);
 
 /// Same as find_calibration(), for a job that needs an object calibration.
-/// @param field  of the spec that names it, for errors
+/// @param field  name of the spec's field that names the calibration, for errors
 /// @return ID_INVALID; CALIBRATION_MISSING; SPEC_INVALID for a camera calibration
 [[nodiscard]] Result<Calibration> needed_calibration(const std::string& name,
                                                      const std::string& field,
@@ -30,17 +31,17 @@ namespace hydroprint::daemon {
 /// Why a calibration cannot be used for a mesh now; empty if it can.
 struct Objection {
   std::string words;  ///< text for display
-  std::string names;  ///< names for programs: "MOVED,OTHER_OBJECT"
+  std::string names;  ///< codes for programs: "MOVED,OTHER_OBJECT"
   void add(const std::string& why, const std::string& name);
 };
 [[nodiscard]] Objection objection(const v1::Calibration& calibration, const v1::InputFile& mesh);
 
-/// Returns CALIBRATION_STALE for a calibration with an objection, unless that is allowed.
+/// Returns CALIBRATION_STALE if there is an objection, unless stale calibrations are allowed.
 [[nodiscard]] Status check_objection(const v1::Calibration& calibration, const Objection& objection,
                                      bool is_allowed);
 
-/// Returns whether the axis has kept its reference, and the object its place, since the
-/// calibration.
+/// Returns whether the calibration still determines the axis position of first contact: since then,
+/// the axis has kept its reference, and nothing was dipped.
 [[nodiscard]] bool knows_contact(const v1::Calibration& calibration);
 
 }  // namespace hydroprint::daemon

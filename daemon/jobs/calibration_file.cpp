@@ -35,7 +35,7 @@ class Reader {
       out.Add(number(fmt::format("{}/{}", pointer, i), most));
     }
   }
-  /// Reads a text, truncated if it is too long, without unprintable characters.
+  /// Reads a text. Truncates it if it is too long, and replaces unprintable characters by '?'.
   std::string text(const std::string& pointer) {
     const Json* found = find(pointer);
     if (found == nullptr || !found->is_string()) {

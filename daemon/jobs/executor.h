@@ -12,7 +12,7 @@ namespace hydroprint::daemon {
 /// A job requested by a client, checked and with all references resolved.
 struct JobRequest {
   NewJob definition;
-  v1::Job job;  ///< with the spec as the job shows it; `definition.body` serialises it
+  v1::Job job;  ///< with the spec that users see; serialised in `definition.body`
   RequestKey key;
   std::string lease_id;
 };
@@ -24,11 +24,11 @@ class JobExecutor {
   JobExecutor(const JobExecutor&) = delete;
   JobExecutor& operator=(const JobExecutor&) = delete;
 
-  /// Makes the checks of create(), except for limits of the store.
+  /// Performs the checks of create(), except those of the store's limits.
   /// @return the job in its initial state, without a name
   [[nodiscard]] virtual Result<Job> check(const JobRequest& request) = 0;
-  /// Stores a job and starts or queues it. A repeated request returns the job that it created
-  /// first.
+  /// Stores a job and starts or queues it. A repeated request returns the job that the first
+  /// request created.
   [[nodiscard]] virtual Result<Job> create(const JobRequest& request) = 0;
   /// Cancels a job, whether or not it is running.
   [[nodiscard]] virtual Result<Job> cancel(std::int64_t job) = 0;
@@ -40,7 +40,8 @@ class JobExecutor {
   JobExecutor() = default;
 };
 
-/// The executors, in the order in which they are stopped: the axis comes to rest first.
+/// The executors, in the order in which they are stopped: dips first, so that the axis comes to
+/// rest.
 enum class ExecutorId : std::uint8_t { kDips, kPrints, kCaptures, kWorkers };
 
 /// One executor for each id.

@@ -10,7 +10,7 @@ namespace hydroprint::daemon {
 
 /// Checks a message against the rules of its fields. Films and paper sizes are parsed as in the
 /// worker.
-/// @return kInvalidArgument with all wrong fields (rest::bad_request())
+/// @return kInvalidArgument, which lists all wrong fields (rest::bad_request())
 [[nodiscard]] Status check_fields(const google::protobuf::Message& message);
 
 }  // namespace hydroprint::daemon

@@ -26,8 +26,8 @@ Status check_all_fields(const JobKind& kind, const v1::Job& job, const Message& 
   return invalid_field("labels", "have an empty key");
 }
 
-/// Removes the number of threads from the spec, because it is an option of the pool and does not
-/// change the result.
+/// Removes the number of threads from the spec and returns it. It is an option of the pool and does
+/// not change the result.
 std::int32_t take_threads(Message& spec) {
   const auto* const field = spec.GetDescriptor()->FindFieldByName("threads");
   if (field == nullptr) return 0;

@@ -25,7 +25,8 @@ std::string with_dashes(std::string name) {
   return name;
 }
 
-/// Returns the name of the only earlier job that a spec refers to; empty if there is none.
+/// Returns the name of the earlier job that a spec refers to in a single (not repeated) field;
+/// empty if there is none.
 std::string earlier_job_name(const Message& spec) {
   std::vector<const FieldDescriptor*> fields;
   spec.GetReflection()->ListFields(spec, &fields);

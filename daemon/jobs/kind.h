@@ -42,14 +42,14 @@ class JobKind {
   /// Returns the worker's verb, which is also the kind in logs and metrics: "print-image".
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// Returns the role required to create such a job.
+  /// Returns the role required to create a job of this kind.
   [[nodiscard]] virtual auth::Role least_role() const { return auth::Role::kMaker; }
   [[nodiscard]] virtual ExecutorId executor() const { return ExecutorId::kWorkers; }
   [[nodiscard]] virtual JobTraits traits() const { return {}; }
   /// Returns whether a job may reuse the artifacts of an earlier one with the same inputs.
   [[nodiscard]] virtual bool is_cacheable() const { return true; }
-  /// Returns why a finished job cannot be retried, as the end of a sentence "jobs/7 is "; empty if
-  /// it can.
+  /// Returns why a finished job cannot be retried, as the end of a sentence that begins with
+  /// "jobs/7 is "; empty if the job can be retried.
   [[nodiscard]] virtual std::string why_no_retry() const { return {}; }
 
   /// Resolves the references of a spec. Both messages are initially copies of the spec as it was
@@ -71,7 +71,7 @@ class JobKind {
       const Job& job, const std::filesystem::path& artifacts) const;
 
  protected:
-  /// @param spec  the message of the kind
+  /// @param spec  the message type of the kind's spec
   explicit JobKind(const google::protobuf::Descriptor& spec);
 
  private:

@@ -43,10 +43,12 @@ Result<const JobKind*> kind_of(const Job& job) {
   const JobKind* const kind =
       find_kind([&](const JobKind* candidate) { return candidate->name() == name; });
   if (kind != nullptr) return kind;
-  return fail(Code::kInternal,
-              fmt::format("{}: unknown job kind \"{}\"; was it stored by another version?",
-                          job_name(job.id), name),
-              "STORE_FAILED");
+  return fail(
+      Code::kInternal,
+      fmt::format(
+          "{}: unknown job kind \"{}\"; use the version of hydroprintd that stored this job",
+          job_name(job.id), name),
+      "STORE_FAILED");
 }
 
 }  // namespace hydroprint::daemon

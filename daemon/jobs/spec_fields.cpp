@@ -14,7 +14,8 @@ Status check_frames(const std::string& kind, const InputFiles& frames, int most_
                          "hydroprint-capture writes");
   }
   if (views <= most_views) return {};
-  return invalid_field(kind + ".frames", fmt::format("have more views than {}", most_views));
+  return invalid_field(kind + ".frames",
+                       fmt::format("have more than {} views; leave some out", most_views));
 }
 
 int count_views(const InputFiles& frames) {

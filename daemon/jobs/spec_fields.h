@@ -9,15 +9,16 @@
 namespace hydroprint::daemon {
 
 // Checks that several kinds share, for fields that depend on each other; the rules of single fields
-// are in the .proto. `Spec` is a message of proto/hydroprint/v1/spec.proto that has these fields.
-// `kind` is the kind's field ("print_image"), for errors.
+// are in the .proto file. `Spec` is a message of proto/hydroprint/v1/spec.proto that has these
+// fields. `kind` is the name of the kind's field in Job ("print_image"), for errors.
 
 using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 
-/// Checks frames as hydroprint-capture writes them: a folder with frames.json for each view.
+/// Checks that there are 1 to `most_views` views: folders with frames.json, as hydroprint-capture
+/// writes them.
 [[nodiscard]] Status check_frames(const std::string& kind, const InputFiles& frames,
                                   int most_views);
-/// Returns the number of folders with frames.
+/// Returns the number of views: of folders with frames.json.
 [[nodiscard]] int count_views(const InputFiles& frames);
 
 /// Checks that the extra files contain the file of a polygon film.
@@ -27,7 +28,8 @@ template <class Spec>
   for (const v1::InputFile& file : spec.extra_files()) {
     if (spec.film() == "polygon:" + file.name()) return {};
   }
-  return invalid_field(kind + ".film", "names a polygon that is not in extra_files");
+  return invalid_field(kind + ".film",
+                       "names a polygon whose file is not in extra_files; add the file there");
 }
 
 /// Checks that inertia is used only with the sheet model.

@@ -19,7 +19,7 @@ struct HealthReport {
 [[nodiscard]] HealthReport health_report(const ServiceContext& backend);
 
 /// Returns all metrics except the HTTP server's, in Prometheus format. Reads the store.
-/// @param certificate  null if there is none
+/// @param certificate  null without TLS
 [[nodiscard]] std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
                                        const CertificateReloader* certificate);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMeterBatch = 1000;
 constexpr std::chrono::milliseconds kPollInterval{500};
-constexpr int kMostStages = 300;  // workers choose the names of their stages
+constexpr int kMostStages = 300;  // limited because workers choose the names of stages
 
 std::string stage_of(const JobEvent& event) {
   if (event.state == JobState::kRunning) {

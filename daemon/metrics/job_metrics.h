@@ -23,7 +23,7 @@ class JobMetrics {
   JobMetrics(const JobMetrics&) = delete;
   JobMetrics& operator=(const JobMetrics&) = delete;
 
-  /// The metrics in Prometheus format. Thread-safe.
+  /// Returns the metrics in Prometheus format. Thread-safe.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -47,7 +47,7 @@ class JobMetrics {
   prometheus::Family<prometheus::Counter>& finished_;
   prometheus::Family<prometheus::Histogram>& queue_waits_;
   prometheus::Family<prometheus::Histogram>& durations_;
-  std::map<std::int64_t, OpenJob> open_;  // from here on used only by the thread
+  std::map<std::int64_t, OpenJob> open_;  // open_ and stage_count_ are used only by the thread
   int stage_count_ = 0;
   std::atomic<bool> end_{false};
   std::thread thread_;

@@ -5,7 +5,7 @@
 
 namespace hydroprint::daemon {
 
-/// Returns the Unix time in ms. Tests provide their own.
+/// A function that returns the Unix time in ms. Tests provide their own.
 using Clock = std::function<std::int64_t()>;
 
 /// Reads the machine's clock.

@@ -30,7 +30,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
   const int error = errno;
   const std::string text = fmt::format("{}: {}: ", path.string(), what);
   if (error == ENOSPC || error == EDQUOT) {
-    return fail(Code::kResourceExhausted, text + "the disk is full; make room and try again",
+    return fail(Code::kResourceExhausted, text + "the disk is full; free disk space and try again",
                 "DISK_FULL");
   }
   return fail(Code::kInternal,
@@ -69,7 +69,8 @@ Status sync_path(const std::filesystem::path& path) {
 }
 
 Status publish(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (::rename(from.c_str(), to.c_str()) != 0) return system_failure(to, "cannot be renamed to");
+  if (::rename(from.c_str(), to.c_str()) != 0)
+    return system_failure(to, "cannot be created by renaming a file");
   return sync_path(to.parent_path());
 }
 

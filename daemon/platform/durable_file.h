@@ -52,8 +52,8 @@ class UniqueFd {
 /// Creates a private folder (0700) and its missing parents, unless it exists.
 [[nodiscard]] Status make_folder(const std::filesystem::path& path);
 
-/// Deletes a file or a folder with its content, if it exists. If that fails, the next start tries
-/// again.
+/// Deletes a file or a folder with its content, if it exists. Ignores errors: the next start
+/// deletes or sets aside files that remain.
 void discard(const std::filesystem::path& path);
 
 /// Creates a hard link, or copies the file if the file system cannot link.

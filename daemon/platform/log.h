@@ -10,7 +10,7 @@
 
 namespace hydroprint::daemon {
 
-/// Severity of a log line; the names are those of the configuration key log.level.
+/// Severity of a log line; the names are the values of the configuration key log.level.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 /// One key=value pair of a log line. Values with blanks, quotes or control characters are quoted
@@ -27,11 +27,11 @@ struct LogField {
   std::string value;
 };
 
-/// Starts logging to stderr and, unless empty, to the end of `file`.
+/// Starts logging to stderr and, unless `file` is empty, to the end of that file.
 /// @return kPermissionDenied if the file cannot be opened
 [[nodiscard]] Status start_logging(LogLevel level, const std::filesystem::path& file);
 
-/// Writes "time level=info event=job_started job=7 owner=ann". Thread-safe.
+/// Writes a line such as "time level=info event=job_started job=7 owner=ann". Thread-safe.
 void log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields = {});
 
 }  // namespace hydroprint::daemon

@@ -17,7 +17,8 @@ void notify_stopping();
 /// progress. That loop must never stall, even if everything else still responds.
 class WatchdogFeeder {
  public:
-  /// Number of iterations of that loop since the start; nullopt without a drive.
+  /// A function that returns the number of iterations of that loop since the start; nullopt without
+  /// a drive.
   using Rounds = std::function<std::optional<std::uint64_t>()>;
 
   explicit WatchdogFeeder(Rounds rounds);
@@ -27,7 +28,7 @@ class WatchdogFeeder {
 
   Rounds rounds_;
   std::optional<std::uint64_t> before_;  // number of iterations at the last feeding
-  // A separate thread, so that a disk that does not respond cannot stop it.
+  // A separate thread, so that a disk that does not respond cannot stop the feeding.
   std::optional<PeriodicThread> thread_;
 };
 

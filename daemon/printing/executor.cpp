@@ -29,12 +29,15 @@ Result<Job> PrintExecutor::check(const JobRequest& request) {
 Result<Job> PrintExecutor::create(const JobRequest& request) {
   HP_ASSIGN_OR_RETURN(const PrintPlan plan, print_plan_of(request.job.print(), jobs_, layout_));
   const std::lock_guard lock(mutex_);
-  if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
+  if (end_)
+    return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
+                "SHUTTING_DOWN");
   HP_RETURN_IF_ERROR(check_printer());
   HP_ASSIGN_OR_RETURN(auto earlier, jobs_.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
   HP_ASSIGN_OR_RETURN(Job job, jobs_.create(request.definition, request.key));
-  // The store allows only one print at a time.
+  // The thread of the last print is about to end, because the store allows only one print at a
+  // time.
   if (thread_.joinable()) thread_.join();
   run_ = std::make_unique<PrintSession>(*setup_, device_jobs_, layout_, job, plan);
   thread_ = std::thread([run = run_.get()] { run->go(); });

@@ -23,14 +23,14 @@ struct PrintPlan {
   double margin_mm = 0;                   ///< the printer's margin, as assumed by print-image
 };
 
-/// Reads the pages of a print-image job from its untrusted report.json.
+/// Reads the number of pages, the paper size and the margin from a print-image job's untrusted
+/// report.json.
 /// @return kFailedPrecondition, STATE_FORBIDS
 [[nodiscard]] Status read_printed_pages(const std::string& report, PrintPlan& plan);
 
 /// Creates the plan of a spec.
 /// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if the print-image job did not
-/// succeed, or
-///         has no PDF or no usable report
+///         succeed, or has no PDF or no usable report
 [[nodiscard]] Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs,
                                               const Layout& layout);
 

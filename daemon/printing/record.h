@@ -25,7 +25,7 @@ struct PrintFacts {
   std::vector<PrinterNews> news;
   Warnings warnings;
   std::string outcome;  ///< "SUCCEEDED"
-  std::string reason;   ///< only after a failure
+  std::string reason;   ///< reason code; only after a failure
   std::string message;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kLargestPdf = std::size_t{2} << 30;
 constexpr std::chrono::milliseconds kStoreAgainAfter{500};
-// Fixed fractions of the progress, because the duration of a print is unknown.
+// Progress at which sending starts and ends; fixed, because the duration of a print is unknown.
 constexpr double kSending = 0.05, kSent = 0.3;
 
 std::string phase_of(printer::JobState state) {

@@ -17,7 +17,7 @@ namespace hydroprint::daemon {
 /// the other functions are thread-safe.
 class PrintSession {
  public:
-  /// @param job  just created
+  /// @param job  the job, just created
   PrintSession(const PrinterConfig& setup, DeviceJobs& jobs, const Layout& layout, const Job& job,
                const PrintPlan& plan);
 

@@ -35,7 +35,7 @@ tl::unexpected<Error> is_required(const std::optional<Lease>& held) {
               "LEASE_REQUIRED",
               {}};
   if (held) {
-    error.message += fmt::format(": {} holds it until {} ({})", held->holder,
+    error.message += fmt::format("; now {} holds it until {} ({})", held->holder,
                                  time_text(held->expire_ms), held->purpose);
     describe(*held, error);
   }

@@ -13,7 +13,7 @@ namespace hydroprint::daemon {
 
 /// The right to command the rig for a limited time. Times are Unix times in ms.
 struct Lease {
-  std::string id;  ///< cannot be guessed; commands must contain it
+  std::string id;  ///< random, so it cannot be guessed; every command must contain it
   std::string holder;
   std::string purpose;
   std::int64_t acquire_ms = 0;
@@ -29,7 +29,7 @@ class LeaseManager {
   /// Reads the row. Must be called once, at startup.
   [[nodiscard]] Status load();
 
-  /// Returns the active lease.
+  /// Returns the active lease, if any.
   [[nodiscard]] std::optional<Lease> current() const;
 
   /// @return kAborted, LEASE_HELD if another client has the lease; REQUEST_ID_REUSED;
@@ -48,8 +48,8 @@ class LeaseManager {
   /// Returns the active lease if it has this id, otherwise kFailedPrecondition, LEASE_REQUIRED.
   [[nodiscard]] Result<Lease> require(const std::string& id) const;
 
-  /// Runs `action` if require(id) succeeds. The lease cannot end meanwhile. `action` returns a
-  /// Result and must not wait.
+  /// Runs `action` if require(id) succeeds. The lease cannot end while the action runs. `action`
+  /// returns a Result and must not wait.
   template <class Action>
   auto with(const std::string& id, const Action& action) const -> decltype(action()) {
     const std::lock_guard lock(now_);
@@ -58,7 +58,7 @@ class LeaseManager {
   }
 
  private:
-  [[nodiscard]] std::optional<Lease> held() const;  // needs now_
+  [[nodiscard]] std::optional<Lease> held() const;  // the caller must hold now_
   [[nodiscard]] Result<Lease> required(const std::string& id) const;
   void set(std::optional<Lease> lease);
   [[nodiscard]] Status write(const Lease& lease);

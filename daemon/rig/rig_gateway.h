@@ -13,8 +13,9 @@
 
 namespace hydroprint::daemon {
 
-/// Entry point for commands to the rig. Checks the lease and that no dip has exclusive use, and
-/// stores information for other threads. Thread-safe; never waits for the drive or the disk.
+/// Entry point for commands to the rig. Checks the lease and that no dip has exclusive use. Keeps
+/// the id of the unfinished dip, and the callers that requested stops. Thread-safe; never waits for
+/// the drive or the disk.
 class RigGateway {
  public:
   /// @param controller  null if no rig is configured; must outlive this object
@@ -36,13 +37,14 @@ class RigGateway {
 
   /// Stores who requested a stop, for the log entry written by RigMonitor.
   void note_stop(const std::string& who);
-  /// Returns the callers that requested stops since the last call; the oldest may be missing.
+  /// Returns the callers that requested stops since the last call: the first 64.
   [[nodiscard]] std::vector<std::string> take_stops();
   /// Stops a jog, if there is one, because its client has lost the lease.
   void end_jog();
 
-  /// Returns an error if the rig's state forbids a move: not homed, in motion, ... Also returns an
-  /// error shortly after a jog was requested, because the jog may not have started yet.
+  /// Returns an error if the rig's state forbids a move, for example because it is not homed or in
+  /// motion. Also returns an error shortly after a jog was requested, because the jog may not have
+  /// started yet.
   [[nodiscard]] Status check_at_rest() const;
 
   /// Sets the id of the unfinished dip; 0: none.

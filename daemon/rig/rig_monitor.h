@@ -15,9 +15,8 @@ namespace hydroprint::daemon {
 /// and makes RigReference check for homing.
 class RigMonitor {
  public:
-  /// @param set_serving  called at the start and after every change; true: the rig is usable, as
-  /// far as
-  ///              known (not OFFLINE, FAULT or ESTOPPED)
+  /// @param set_serving  called at the start and after every change; true means that the rig is
+  ///                     usable: not OFFLINE, FAULT or ESTOPPED
   RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> set_serving);
 
  private:

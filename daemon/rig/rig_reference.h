@@ -22,7 +22,7 @@ class RigReference {
   /// Checks whether the rig was homed since the last call. Must be called often. (A homing that is
   /// forgotten when the daemon exits does no harm: after the start, homing is required again.)
   void look() { (void)place(); }
-  /// Returns the current place.
+  /// Returns the current state of the rig.
   [[nodiscard]] RigPlace place();
   /// Stores the counts. Must be called before data is stored that is later compared with them.
   [[nodiscard]] Status keep();

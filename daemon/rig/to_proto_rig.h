@@ -9,7 +9,8 @@ namespace hydroprint::daemon {
 /// Never waits.
 [[nodiscard]] v1::Rig rig_message(const RigGateway& gateway);
 
-/// Returns whether two messages differ only in the time of the last poll.
+/// Returns whether two messages are equal except for the time of the last poll and the link
+/// quality.
 [[nodiscard]] bool looks_same(v1::Rig a, v1::Rig b);
 
 /// Converts a lease to its API message. Only the holder of the lease sees its id.

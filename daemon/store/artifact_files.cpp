@@ -68,7 +68,7 @@ Result<std::vector<Artifact>> publish_artifacts(const std::filesystem::path& fro
     struct stat info {};
     const bool plain = ::lstat(entry.path().c_str(), &info) == 0 && S_ISREG(info.st_mode) &&
                        info.st_nlink == 1 && check_file_name("artifact", name);
-    if (!plain) return unusable("a file that is not a regular file");
+    if (!plain) return unusable("something that is not a regular file");
     if (artifacts.size() == kMostArtifacts) return unusable("too many files");
     HP_ASSIGN_OR_RETURN(std::string hash, sha256_of_file(entry.path()));
     HP_RETURN_IF_ERROR(sync_path(entry.path()));

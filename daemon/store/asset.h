@@ -15,7 +15,7 @@ struct Asset {
   std::int64_t size_bytes = 0;
   std::string media_type;
   std::int64_t create_ms = 0;
-  std::vector<std::string> owners = {};  ///< names
+  std::vector<std::string> owners = {};  ///< names of the users who own it
 };
 
 /// A file whose bytes are still being received.
@@ -29,10 +29,10 @@ struct Upload {
   std::string owner = {};
 };
 
-/// The result of an upload so far.
+/// The result of an upload so far: the asset if all bytes are stored, otherwise the open upload.
 using AssetOrUpload = std::variant<Asset, Upload>;
 
-/// The error (kFailedPrecondition, ASSET_MISSING) for a missing input file.
+/// Returns the error (kFailedPrecondition, ASSET_MISSING) for a missing input file.
 [[nodiscard]] tl::unexpected<Error> asset_missing(const InputFile& input);
 
 }  // namespace hydroprint::daemon

@@ -17,7 +17,7 @@ struct NewCalibration {
   std::string owner;
   std::int64_t job = 0;      ///< job that produced it; 0: entered by hand
   std::int64_t capture = 0;  ///< job that took its frames; 0: unknown
-  std::string body;          ///< a serialised hydroprint.v1.Calibration: the result
+  std::string body;          ///< the result: a serialised hydroprint.v1.Calibration
 };
 
 /// Time of a capture, and the state of the rig at that time.

@@ -13,7 +13,7 @@ Status make_active(Database& database, std::int64_t id, CalibrationKind kind) {
   return database.run("UPDATE calibrations SET active=(id=?) WHERE kind=?", {id, number(kind)});
 }
 
-/// Reads the columns that start at `at`.
+/// Reads the state of the rig from the six columns that start at `at`; nullopt if they are NULL.
 std::optional<Captured> read_captured(const DbRow& row, int at) {
   if (row.is_null(at)) return std::nullopt;
   return Captured{row.integer(at),

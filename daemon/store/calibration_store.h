@@ -19,7 +19,8 @@ class CalibrationStore {
   CalibrationStore(Database& database, Clock clock)
       : database_(database), clock_(std::move(clock)) {}
 
-  /// Stores a manually entered calibration, or returns the one that the same request created.
+  /// Stores a manually entered calibration, or returns the one that an earlier request with the
+  /// same id created.
   /// @return kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Calibration> create(const NewCalibration& definition,
                                            const RequestKey& request);
@@ -27,7 +28,7 @@ class CalibrationStore {
   /// Returns the active calibration of a kind, if there is one.
   [[nodiscard]] Result<std::optional<Calibration>> active(CalibrationKind kind);
   /// Lists calibrations, newest first.
-  /// @param before_id  only older ones; 0: all
+  /// @param before_id  lists only calibrations older than this one; 0: all
   [[nodiscard]] Result<std::vector<Calibration>> list(std::int64_t before_id, int limit);
   /// Makes a calibration the active one of its kind.
   [[nodiscard]] Result<Calibration> activate(std::int64_t id);
@@ -47,8 +48,8 @@ class CalibrationStore {
 };
 
 /// Stores a calibration and makes it the active one of its kind. Call this within the transaction
-/// of the job that produces it.
-/// @return its id
+/// that stores its source: the end of the job, or the request for a manual entry.
+/// @return the calibration's id
 [[nodiscard]] Result<std::int64_t> insert_calibration(Database& database,
                                                       const NewCalibration& definition,
                                                       std::int64_t now_ms);

@@ -8,7 +8,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Jobs that wait for an operator, run or are being cancelled.
+// SQL condition for jobs that wait for an operator, run or are being cancelled.
 constexpr const char* kIsOpen = "state IN (2,3,4)";
 
 }  // namespace
@@ -57,7 +57,7 @@ Result<Job> DeviceJobs::end(std::int64_t id, JobState state,
                             const std::optional<JobFailure>& failure, const std::string& dip_status,
                             const std::vector<Artifact>& record, const std::string& message) {
   return changes_.change(id, [&](const Job& job) -> Status {
-    if (is_finished(job.state)) return {};  // repeated call, in case the first was lost
+    if (is_finished(job.state)) return {};  // an earlier call has already ended the job
     HP_RETURN_IF_ERROR(changes_.add_artifacts(id, record));
     if (!dip_status.empty()) HP_RETURN_IF_ERROR(store_dip_status(database_, id, dip_status));
     if (state == JobState::kSucceeded) {

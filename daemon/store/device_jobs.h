@@ -33,11 +33,11 @@ class DeviceJobs {
   Database& database_;
 };
 
-/// Returns STATE_FORBIDS if a job of the kind is open. Call this within the
+/// Returns STATE_FORBIDS if a job of the kind `verb` is not finished. Call this within the
 /// transaction that then stores the job.
 [[nodiscard]] Status check_none_open(Database& database, const std::string& verb);
 
-/// Stores the current status of a dip, within a transaction.
+/// Stores the current status of a dip. Call this within a transaction.
 [[nodiscard]] Status store_dip_status(Database& database, std::int64_t id,
                                       const std::string& dip_status);
 

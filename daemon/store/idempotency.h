@@ -20,7 +20,7 @@ inline constexpr std::int64_t kRequestMemoryMs = 7LL * 24 * 3600 * 1000;
                                                                 const RequestKey& key,
                                                                 std::int64_t now_ms);
 
-/// Stores the result of a request, within the same transaction.
+/// Stores the result of a request. Call this within the transaction that executes the request.
 [[nodiscard]] Status remember_result(Database& database, const std::string& owner,
                                      const RequestKey& key, const std::string& result,
                                      std::int64_t now_ms);
@@ -34,7 +34,7 @@ inline constexpr std::int64_t kRequestMemoryMs = 7LL * 24 * 3600 * 1000;
 [[nodiscard]] Status forget_request(Database& database, const std::string& owner,
                                     const RequestKey& key);
 
-/// Deletes old entries.
+/// Deletes request ids older than kRequestMemoryMs.
 [[nodiscard]] Status forget_old_requests(Database& database, std::int64_t now_ms);
 
 }  // namespace hydroprint::daemon

@@ -21,7 +21,7 @@ enum class JobState : std::int8_t {
   kInterrupted = 8,
 };
 
-/// Returns the state's name: "RUNNING".
+/// Returns the state's name, for example "RUNNING".
 [[nodiscard]] const char* name_of(JobState state);
 
 /// Returns whether the state is final. (Computed jobs are INTERRUPTED only in their history; for
@@ -34,15 +34,16 @@ enum class JobState : std::int8_t {
 /// Kinds of event; numbers as in hydroprint.v1.JobEvent.Kind.
 enum class EventKind : std::int8_t { kStateChanged = 1, kProgress = 2, kMoved = 3 };
 
-/// An input file of a job: its name for the computation, and the hash of its bytes.
+/// An input file of a job: the name under which the computation reads it, and the hash of its
+/// bytes.
 struct InputFile {
   std::string name;
   std::string sha256;
   bool operator==(const InputFile&) const = default;
 };
 
-/// The work of a job: the worker's verb (also the kind's name), the spec with all references
-/// resolved as proto3 JSON, and the files.
+/// The work of a job: the worker's verb (also the kind's name), the spec as proto3 JSON with all
+/// references resolved, and the input files.
 struct Work {
   std::string verb;
   std::string spec;
@@ -55,17 +56,17 @@ struct Work {
 
 /// Properties of a job's kind that the store needs.
 struct JobTraits {
-  /// A worker computes it: it is queued, and queued again if the daemon is killed. Other jobs start
-  /// immediately, one of each kind at a time, and remain INTERRUPTED.
+  /// A worker computes the job: it is queued, and queued again if the daemon ends while it runs.
+  /// Other jobs start immediately, one of each kind at a time, and end as INTERRUPTED in this case.
   bool computed = true;
-  /// It reads the artifacts of another job, which must not be deleted meanwhile.
+  /// The job reads the artifacts of another job, which must not be deleted meanwhile.
   bool reads_artifacts = false;
-  /// Advice that is appended to the event if the job is interrupted.
+  /// Advice that is appended to the event's message if the job is interrupted.
   std::string interrupted_advice = {};
 };
 
-/// Returns the SHA-256 of everything that determines the result of the work; `worker` identifies
-/// the program.
+/// Returns the SHA-256 of everything that determines the result of the work. `worker` is the
+/// SHA-256 of the worker program.
 [[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);
 
 /// A request id chosen by the client. It prevents a repeated request from being executed twice.
@@ -84,9 +85,9 @@ struct NewJob {
   Work work;
   JobTraits traits;
   std::string digest;         ///< see input_digest()
-  std::int64_t retry_of = 0;  ///< 0: none
+  std::int64_t retry_of = 0;  ///< id of the job that this one retries; 0: none
   bool use_cache = true;
-  std::int32_t threads = 0;  ///< 0: the pool decides
+  std::int32_t threads = 0;  ///< number of the worker's threads; 0: the pool decides
   std::string dip_status;    ///< initial status of a dip: a serialised hydroprint.v1.DipStatus
 };
 

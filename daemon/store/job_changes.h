@@ -18,28 +18,28 @@ struct RetentionTimes {
   std::int64_t dips_ms = 365LL * 24 * 3600 * 1000;     ///< minimum for dips; 0: for ever
 };
 
-/// Changes the rows of jobs for JobStore, JobQueue, DeviceJobs and JobRetention. Every change is
-/// one transaction with its event, is on disk when the call returns, and is then notified.
+/// Changes the rows of jobs for JobStore, JobQueue, DeviceJobs and JobRetention. A change and its
+/// event are one transaction, which is on disk when the call returns; the notifier then rings.
 /// Thread-safe.
 ///
 /// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
 /// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
 /// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
-/// Prints and captures: RUNNING at once -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
-/// INTERRUPTED.
-/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
-/// both -> INTERRUPTED.
+/// Prints and captures start as RUNNING: RUNNING -> SUCCEEDED | FAILED | INTERRUPTED; RUNNING ->
+/// CANCELLING -> CANCELLED.
+/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED. From either of these two states:
+/// -> CANCELLING -> CANCELLED, or -> INTERRUPTED.
 ///
-/// Methods of these classes that name a job return kNotFound, JOB_NOT_FOUND for an unknown job;
-/// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change; and the disk errors
-/// of Database::run().
+/// Methods of these classes that take a job's id return kNotFound, JOB_NOT_FOUND for an unknown
+/// job; kFailedPrecondition, STATE_FORBIDS if its state does not allow the change; and the disk
+/// errors of Database::run().
 class JobChanges {
  public:
   JobChanges(Database& database, const RetentionTimes& times, Clock clock);
 
-  /// Changes one job within a transaction, notifies, and returns the job's new state.
+  /// Changes one job within a transaction, rings the notifier, and returns the changed job.
   [[nodiscard]] Result<Job> change(std::int64_t id, const std::function<Status(const Job&)>& body);
-  /// Runs `body` as one transaction and notifies.
+  /// Runs `body` as one transaction, then rings the notifier.
   [[nodiscard]] Status transaction(const std::function<Status()>& body);
 
   // Parts of a change; call these within a transaction.
@@ -52,12 +52,13 @@ class JobChanges {
   [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);
   /// Stores FAILED with its reason.
   [[nodiscard]] Status finish_failed(std::int64_t id, const JobFailure& failure);
-  /// Sets the deletion time of the finished jobs that `where` (with one value) selects.
+  /// Sets the deletion time of the finished jobs selected by `where`, an SQL condition with one `?`
+  /// for `value`.
   [[nodiscard]] Status set_purge_time(const std::string& where, std::int64_t value);
 
   [[nodiscard]] Database& database() { return database_; }
   [[nodiscard]] std::int64_t now_ms() const { return clock_(); }
-  /// Rings after every change.
+  /// Returns the notifier, which rings after every change.
   [[nodiscard]] Notifier& notifier() { return notifier_; }
 
  private:

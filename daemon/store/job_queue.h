@@ -22,16 +22,17 @@ struct QueuePause {
   std::string reason;
 };
 
-/// The queue of computed jobs: their order, and the pause. Errors as in JobChanges. Thread-safe.
+/// The queue of computed jobs: their order, and whether the queue is paused. Errors as in
+/// JobChanges. Thread-safe.
 class JobQueue {
  public:
   explicit JobQueue(JobChanges& changes) : changes_(changes), database_(changes.database()) {}
 
-  /// All queued jobs, in starting order for each owner.
+  /// Returns all queued jobs. The jobs of one owner are in the order in which they will start.
   [[nodiscard]] Result<std::vector<WaitingJob>> waiting();
-  /// Computed jobs that are RUNNING, followed by those that are CANCELLING.
+  /// Returns the computed jobs that are RUNNING, followed by those that are CANCELLING.
   [[nodiscard]] Result<std::vector<std::int64_t>> computing();
-  /// Moves a queued job before another of the same owner (0: to the end).
+  /// Moves a queued job before another job of the same owner; if `before` is 0, to the end.
   [[nodiscard]] Result<Job> move(std::int64_t id, std::int64_t before);
   [[nodiscard]] Result<QueuePause> pause();
   [[nodiscard]] Status set_pause(const QueuePause& pause);

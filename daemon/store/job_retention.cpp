@@ -14,7 +14,8 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Condition for deletion: past its retention time, and not kept for another reason.
+// SQL condition for deleting a job: its retention time is over, and it is not kept for another
+// reason.
 constexpr const char* kIsDue =
     "purge_ms>0 AND purge_ms<=?1 AND pinned=0 AND NOT EXISTS (SELECT 1 FROM calibrations WHERE "
     "calibrations.job=jobs.id)";
@@ -26,8 +27,8 @@ void log_jump(std::int64_t jump_ms) {
   log(LogLevel::kWarning, "clock_jumped",
       {{"by_s", jump_ms / 1000},
        {"message",
-        "the daemon was off for more than a day, or the clock was set; all retention times moved "
-        "with it"}});
+        "the daemon was off for more than a day, or the clock was set; all retention "
+        "times were shifted by the same amount"}});
 }
 
 }  // namespace

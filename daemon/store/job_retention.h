@@ -16,8 +16,8 @@ class JobRetention {
   /// Pins or unpins a job; after unpinning, retention starts again from now.
   [[nodiscard]] Result<Job> pin(std::int64_t id, bool pinned);
   /// Deletes finished jobs past their retention time, oldest first, and logs each. Keeps pinned
-  /// jobs and jobs whose calibration exists. Deletes nothing while an open job reads artifacts,
-  /// since they may belong to any job.
+  /// jobs and jobs whose calibration exists. Deletes nothing while an open job reads the artifacts
+  /// of another job, since any job may be the other one.
   [[nodiscard]] Status purge();
   /// Sets aside artifact folders without a job, empties the folder of runs, and applies the
   /// configured retention times. Call this before the pool starts.

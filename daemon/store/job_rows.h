@@ -10,7 +10,7 @@
 
 namespace hydroprint::daemon {
 
-/// The number stored for a state or a kind of event.
+/// Returns the number stored for a state or a kind of event.
 [[nodiscard]] constexpr std::int64_t number(JobState state) {
   return static_cast<std::int64_t>(state);
 }
@@ -18,7 +18,7 @@ namespace hydroprint::daemon {
   return static_cast<std::int64_t>(kind);
 }
 
-/// Jobs selected by "WHERE ... ORDER BY ... LIMIT ...", without their inputs.
+/// Returns jobs selected by "WHERE ... ORDER BY ... LIMIT ...", without their inputs.
 [[nodiscard]] Result<std::vector<Job>> select_jobs(Database& database, const std::string& where,
                                                    std::initializer_list<DbValue> values);
 

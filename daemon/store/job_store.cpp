@@ -87,7 +87,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& definition) {
        now,
        now}));
   const std::int64_t id = database_.last_id();
-  // Later jobs rank after earlier ones; moving permutes ranks.
+  // Later jobs rank after earlier ones; moving a job permutes the ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
   for (const InputFile& input : definition.work.inputs) {
     HP_RETURN_IF_ERROR(
@@ -146,7 +146,7 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   for (const Artifact& file : files) {
     const auto from = layout_.artifacts(equal.front()) / file.name;
     if (link_or_copy(from, folder / file.name)) continue;
-    discard(folder);  // damaged; compute the job again
+    discard(folder);  // the earlier artifacts are damaged; compute the job
     return false;
   }
   HP_RETURN_IF_ERROR(sync_path(folder));
@@ -158,8 +158,8 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   return true;
 }
 
-// Deletes the artifacts folder of a job without stored artifacts, after reusing artifacts has
-// failed.
+// Deletes the artifact folder of a job that has not succeeded. Needed if the transaction that
+// reused the artifacts of another job has failed.
 void JobStore::discard_unowned(std::int64_t id) {
   (void)database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto owner,
@@ -301,10 +301,11 @@ Status JobStore::queue_again(std::int64_t id, Interruption why) {
     if (losses.front() >= kMostLosses) {
       const Error lost{
           Code::kInternal,
-          fmt::format("the daemon or its machine was lost {} times while this job ran, so it "
-                      "is not tried again; check the daemon's log, and retry the job if it "
-                      "was not the cause",
-                      kMostLosses),
+          fmt::format(
+              "the daemon was killed, or its machine crashed, {} times while this job ran, so "
+              "the job is not tried again; check the daemon's log, and retry the job if it "
+              "was not the cause",
+              kMostLosses),
           "DAEMON_LOST",
           {}};
       return changes_.finish_failed(id, {lost, {}, {}});

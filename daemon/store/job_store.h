@@ -18,7 +18,7 @@ namespace hydroprint::daemon {
 struct JobFilter {
   std::vector<JobState> states;  ///< empty: all
   std::string owner;             ///< empty: all
-  std::int64_t before_id = 0;    ///< only older ones; 0: all
+  std::int64_t before_id = 0;    ///< only jobs older than this one; 0: all
   int limit = 50;
 };
 
@@ -32,33 +32,33 @@ struct JobStoreOptions {
 /// machine crashed), in which case the next daemon finds them running.
 enum class Interruption { kShutdown, kLoss };
 
-/// Stores jobs, their events and the rows of their artifacts. Every change is one transaction with
-/// its event, is on disk when the call returns, and is then notified. Thread-safe.
+/// Stores jobs, their events and the rows of their artifacts. A change and its event are one
+/// transaction, which is on disk when the call returns; the notifier then rings. Thread-safe.
 ///
 /// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
 /// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
 /// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
-/// Prints and captures: RUNNING immediately -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
-/// INTERRUPTED.
-/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
-/// both -> INTERRUPTED.
+/// Prints and captures start as RUNNING: RUNNING -> SUCCEEDED | FAILED | INTERRUPTED; RUNNING ->
+/// CANCELLING -> CANCELLED.
+/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED. From either of these two states:
+/// -> CANCELLING -> CANCELLED, or -> INTERRUPTED.
 ///
-/// Methods that name a job return kNotFound, JOB_NOT_FOUND for an unknown job, and
+/// Methods that take a job's id return kNotFound, JOB_NOT_FOUND for an unknown job, and
 /// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change. Disk errors are as in
 /// Database::run().
 class JobStore {
  public:
   JobStore(JobChanges& changes, const Layout& layout, const JobStoreOptions& options);
 
-  /// Stores a job, or returns the one that the same request created. A computed job with the inputs
-  /// of a successful one reuses its artifacts and is finished immediately. Jobs that are not
-  /// computed are RUNNING, dips WAITING_FOR_OPERATOR.
+  /// Stores a job, or returns the one that an earlier request with the same id created. A computed
+  /// job with the same inputs as a successful job reuses its artifacts and is finished immediately.
+  /// Jobs that are not computed start as RUNNING, dips as WAITING_FOR_OPERATOR.
   /// @return kResourceExhausted: QUEUE_FULL, QUOTA_EXCEEDED; kFailedPrecondition: ASSET_MISSING, or
   ///         STATE_FORBIDS for a job that is not computed while another of its kind is unfinished;
   ///         kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Job> create(const NewJob& definition, const RequestKey& request);
-  /// Returns the job that the same request created, if any. Errors: REQUEST_ID_REUSED;
-  /// JOB_NOT_FOUND if it was deleted.
+  /// Returns the job that an earlier request with the same id created, if any. Errors:
+  /// REQUEST_ID_REUSED; JOB_NOT_FOUND if it was deleted.
   [[nodiscard]] Result<std::optional<Job>> repeated(const std::string& owner,
                                                     const RequestKey& request);
   /// Returns ASSET_MISSING for inputs that are not stored.
@@ -72,21 +72,23 @@ class JobStore {
   [[nodiscard]] Status remove(std::int64_t id);
   /// Sets whether all users may see the job's artifacts.
   [[nodiscard]] Result<Job> share(std::int64_t id, bool shared);
-  /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
-  /// do not change.
+  /// Cancels a job: QUEUED -> CANCELLED; RUNNING or WAITING_FOR_OPERATOR -> CANCELLING. Does
+  /// nothing if the job is CANCELLING or CANCELLED.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
 
-  /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished.
+  /// Starts a queued job: QUEUED -> RUNNING, or -> SUCCEEDED if the artifacts of a job with the
+  /// same inputs can be reused.
   [[nodiscard]] Result<Job> start(std::int64_t id);
   /// Stores the progress of a running job; ignored in other states.
   [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
-  /// RUNNING -> SUCCEEDED; CANCELLING -> CANCELLED.
+  /// Ends a job that succeeded: RUNNING -> SUCCEEDED; CANCELLING -> CANCELLED.
   /// @param calibration  produced by the job, stored in the same transaction
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
                                     const std::optional<NewCalibration>& calibration = {});
-  /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
+  /// Ends a job that failed: RUNNING -> FAILED; CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
-  /// For all jobs: RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see JobChanges), CANCELLING ->
+  /// Interrupts all open jobs. Computed jobs: RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see
+  /// JobChanges). Other jobs: RUNNING or WAITING_FOR_OPERATOR -> INTERRUPTED. All: CANCELLING ->
   /// CANCELLED. The events contain the reason. Call this only when no worker runs.
   [[nodiscard]] Status interrupt_all(Interruption why);
 
@@ -106,7 +108,7 @@ class JobStore {
   [[nodiscard]] Result<std::int64_t> last_seq();
 
   [[nodiscard]] Result<std::vector<std::int64_t>> ids_in_state(JobState state);
-  /// Rings after every change of any job.
+  /// Returns the notifier, which rings after every change of any job.
   [[nodiscard]] Notifier& notifier() { return changes_.notifier(); }
 
  private:

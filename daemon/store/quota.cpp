@@ -19,7 +19,7 @@ tl::unexpected<Error> over_quota(const char* quota, std::int64_t used, std::int6
 
 tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usage,
                                      std::int64_t allowed, std::int64_t more_bytes) {
-  // Rounded up, so that it never seems that there is space left.
+  // Rounds up, so that a quota that is used up never looks as if space were left.
   const auto mebibytes = [](std::int64_t bytes) { return (bytes + kMebibyte - 1) / kMebibyte; };
   std::string words = fmt::format("{} uses {} of {} MiB", owner, mebibytes(usage.stored_bytes),
                                   allowed / kMebibyte);
@@ -29,8 +29,8 @@ tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usag
   if (more_bytes > 0) words += fmt::format(", and this needs {} MiB more", mebibytes(more_bytes));
   return over_quota("bytes", usage.stored_bytes, allowed,
                     words +
-                        "; delete jobs (hydroprint list --mine, delete) or files (hydroprint "
-                        "assets list, delete)");
+                        "; delete jobs (hydroprint list --mine, hydroprint delete) or files "
+                        "(hydroprint assets list, hydroprint assets delete)");
 }
 
 }  // namespace

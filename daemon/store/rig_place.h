@@ -8,7 +8,7 @@ namespace hydroprint::daemon {
 struct RigPlace {
   bool watched = false;  ///< whether a rig is configured; otherwise the other fields are not valid
   bool homed = false;
-  double axis_mm = 0;  ///< only if homed
+  double axis_mm = 0;  ///< axis position; valid only if homed
   /// Number of homings and dips since the store was created.
   std::int64_t homings = 0, dips = 0;
 

@@ -9,9 +9,9 @@
 
 namespace hydroprint::daemon {
 
-/// Moves files that the database does not know out of the way. Most are left over from a crash. If
-/// the database was lost or replaced by an older copy, they are results of users, so nothing is
-/// deleted. Finally logs how many files were moved, and where.
+/// Sets aside files that the database does not know. Most are left over from a crash, but if the
+/// database was lost or replaced by an older copy, they are users' results. They are therefore not
+/// deleted. The destructor logs how many files were moved, and where.
 class SetAside {
  public:
   explicit SetAside(const Layout& layout, std::int64_t now_ms);

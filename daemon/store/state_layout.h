@@ -27,12 +27,12 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
     return run_work(job) / "out";
   }
-  /// Returns the job's spec, in a different folder from its inputs, because their names might
-  /// collide.
+  /// Returns the path of the job's spec. It is not in the folder of the inputs, because an input
+  /// may have the same name.
   [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
     return run_work(job) / "spec.json";
   }
-  /// Returns the pose of a job whose options are stored as flags.
+  /// Returns the path of the pose file, for jobs whose options are stored as flags.
   [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
     return run_work(job) / "pose.json";
   }
@@ -40,7 +40,8 @@ struct Layout {
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
-  /// Returns the folder into which a restore unpacks, and the marker of an unfinished restore.
+  /// Return the folder into which a restore unpacks files, and the file that marks an unfinished
+  /// restore.
   [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
   [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
   /// Returns the folder of the live camera process.

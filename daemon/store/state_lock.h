@@ -6,7 +6,7 @@
 namespace hydroprint::daemon {
 
 /// Locks the state folder (created if needed) for this process, until the descriptor is closed.
-/// @return kFailedPrecondition if another daemon uses it
+/// @return kFailedPrecondition if another daemon uses the folder
 [[nodiscard]] Result<UniqueFd> lock_state(const Layout& layout);
 
 /// Returns kFailedPrecondition, RESTORE_UNFINISHED for a folder with an unfinished restore.

@@ -13,7 +13,7 @@
 
 namespace hydroprint::daemon {
 
-/// Converts Unix time in ms to the API's timestamp, and to text ("2026-11-22T02:05:39Z").
+/// Convert Unix time in ms to the API's timestamp, and to text ("2026-11-22T02:05:39Z").
 [[nodiscard]] google::protobuf::Timestamp time_of(std::int64_t ms);
 [[nodiscard]] std::string time_text(std::int64_t ms);
 
@@ -28,7 +28,7 @@ namespace hydroprint::daemon {
 [[nodiscard]] const google::protobuf::Message* spec_of(const v1::Job& job);
 
 /// Returns the key of a request: SHA-256 of its content without request_id, to distinguish a
-/// repetition from another request.
+/// repeated request from a different one.
 template <class Request>
 [[nodiscard]] RequestKey request_key(const char* method, const Request& request);
 

@@ -47,7 +47,8 @@ Result<Pipe> make_stdin(bool is_asked) {
   return Pipe{UniqueFd(::fcntl(null.get(), F_DUPFD_CLOEXEC, 10)), {}};
 }
 
-// Passes only a few variables to a worker: those for sanitizers and the loader.
+// Returns the environment of a worker. Of the daemon's variables, only those for the loader and for
+// sanitizers are passed on.
 std::vector<std::string> make_environment(const std::filesystem::path& work) {
   std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + work.string(),
                                "TMPDIR=" + work.string()};
@@ -94,7 +95,7 @@ struct ChildPlan {
   ::dup2(plan.progress, kProgressFd);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != plan.parent) ::_exit(127);  // the daemon ended before that took effect
+  if (::getppid() != plan.parent) ::_exit(127);  // the daemon ended before prctl() took effect
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -133,11 +134,12 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   worker.pid = ::fork();
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
   if (worker.pid < 0) {
-    return fail(Code::kInternal,
-                fmt::format("cannot start a worker: {}; the machine has too many processes or too "
-                            "little memory",
-                            std::strerror(errno)),
-                "WORKER_UNUSABLE");
+    return fail(
+        Code::kInternal,
+        fmt::format("cannot start a worker: {}; free memory, or end other processes on this "
+                    "machine",
+                    std::strerror(errno)),
+        "WORKER_UNUSABLE");
   }
   ::setpgid(worker.pid, worker.pid);
   worker.handle = UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, worker.pid, 0)));

@@ -17,32 +17,33 @@ namespace hydroprint::daemon {
 /// directory.
 [[nodiscard]] std::vector<std::string> spec_options(const std::filesystem::path& spec_file);
 
-/// The program to run, and its environment.
+/// A program to run, with its folders and limits.
 struct Launch {
   std::filesystem::path program;
   std::vector<std::string> arguments;  ///< without the program's name
-  std::filesystem::path inputs;        ///< working directory, which it may read
-  std::filesystem::path work;          ///< the only folder that it may write to
+  std::filesystem::path inputs;        ///< working directory, which the program may read
+  std::filesystem::path work;          ///< the only folder that the program may write to
   Limits limits;
-  bool is_asked = false;  ///< true: it reads requests from stdin
-  bool confined = true;   ///< false: only limits apply; for trusted programs that need a device
+  bool is_asked = false;  ///< true: the program reads requests from stdin
+  bool confined = true;   ///< false: only resource limits; for trusted programs that need a device
 };
 
-/// A running worker. It leads its own process group, which is killed when the thread that started
-/// it ends. The non-blocking pipes carry its progress, stderr (`errors`) and stdout (`answer`).
+/// A running worker. It leads its own process group, and is killed when the thread that started it
+/// ends. The non-blocking pipes carry its progress, stderr (`errors`) and stdout (`answer`).
 struct ChildProcess {
   pid_t pid = -1;
   UniqueFd handle;  ///< becomes readable when the worker ends
   UniqueFd progress;
   UniqueFd errors;
   UniqueFd answer;
-  UniqueFd requests;  ///< its stdin, if `is_asked`
+  UniqueFd requests;  ///< the worker's stdin, if Launch::is_asked
 };
 
 /// The descriptor of the progress pipe in the worker.
 inline constexpr int kProgressFd = 3;
 
-/// Starts a confined worker. The calling thread must outlive it.
+/// Starts a worker, confined unless Launch::confined is false. The calling thread must outlive the
+/// worker.
 /// @return kInternal, WORKER_UNUSABLE if the system cannot create a process. A program that cannot
 /// be run exits at once with status 127 and a message at `errors`.
 [[nodiscard]] Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox);
@@ -59,8 +60,8 @@ void signal_group(const ChildProcess& worker, int signal);
 /// @return the status from waitpid()
 int kill_and_wait(const ChildProcess& worker);
 
-/// Appends the available bytes, up to `most` or slightly more; returns false at the end of the
-/// pipe.
+/// Appends the available bytes of a pipe to `bytes`, up to `most` or slightly more. Returns false
+/// at the end of the pipe.
 [[nodiscard]] bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most);
 
 /// Returns the resident memory of the worker in bytes; 0 if it has ended.

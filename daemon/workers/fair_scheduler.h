@@ -10,8 +10,8 @@
 namespace hydroprint::daemon {
 
 /// Schedules jobs fairly among owners. The next owner is the one with the fewest running jobs;
-/// among these the one served longest ago, then the one with the oldest job. Within an owner,
-/// higher priority comes first, then lower rank.
+/// among equals the one served longest ago, then the one whose next job has the lowest rank. Of one
+/// owner's jobs, those with a higher priority come first, then those with a lower rank.
 class FairScheduler {
  public:
   /// Records that a job of this owner was started.

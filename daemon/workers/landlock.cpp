@@ -28,7 +28,8 @@ long version() {
   return answer > 0 ? answer : 0;
 }
 
-// The right to move files between folders exists since version 2; version 1 always denies it.
+// The right to move files between folders exists since version 2; version 1 always denies such
+// moves.
 std::uint64_t move_right() { return version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
 
 // Allows access below a path; a missing path needs no rule.

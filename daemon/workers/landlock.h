@@ -18,13 +18,13 @@ namespace hydroprint::daemon {
 /// Returns whether the kernel has Landlock.
 [[nodiscard]] bool fences_work();
 
-/// Returns whether the workers of `program` can read this file although it is not an input: system
-/// files, and files next to the program.
+/// Returns whether workers that run `program` can read this file although it is not an input,
+/// because it is a system file or in the program's folder.
 [[nodiscard]] bool is_within_ruleset(const std::filesystem::path& file,
                                      const std::filesystem::path& program);
 
-/// Confines the calling thread permanently. The no_new_privs attribute must be set. Acquires no
-/// locks.
+/// Confines the calling thread permanently. The no_new_privs attribute must be set before. Acquires
+/// no locks.
 [[nodiscard]] bool apply_ruleset(int ruleset);
 
 }  // namespace hydroprint::daemon

@@ -18,7 +18,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Each slot keeps a mesh in memory.
+// Limited because each slot keeps a mesh in memory.
 constexpr std::size_t kMaxSlots = 4;
 constexpr std::chrono::seconds kKept{120};
 constexpr std::chrono::seconds kTimeLimit{30};
@@ -30,7 +30,8 @@ tl::unexpected<Error> shutting_down() {
               "SHUTTING_DOWN");
 }
 
-/// Returns the worker's response to the request with this id; nullopt for other responses.
+/// Returns a worker's response, or the error in it; nullopt if it belongs to a request with another
+/// id.
 std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
   const auto head = parse_json(frame.head).value_or(nullptr);
   if (json_unsigned(head, "id") != static_cast<std::uint64_t>(id)) return {};
@@ -54,7 +55,7 @@ struct PreviewPool::Call {
 
 struct PreviewPool::Slot {
   std::unique_ptr<PreviewWorker> worker;
-  std::shared_ptr<const PreviewFrame> mesh;  // once the worker has sent it
+  std::shared_ptr<const PreviewFrame> mesh;  // null until the worker has sent it
   std::shared_ptr<Call> call;                // the waiting call, if any
   SteadyTime used;
 };
@@ -119,7 +120,8 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
   return slot->call;
 }
 
-/// If all slots are in use, frees the least recently used slot without a waiting call.
+/// If all slots are in use, frees the least recently used slot without a waiting call. Returns
+/// false if there is no such slot.
 bool PreviewPool::make_room() {
   if (slots_.size() < kMaxSlots) return true;
   auto oldest = slots_.end();
@@ -177,7 +179,7 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
   }
 }
 
-/// Sends the call to the slot's worker, or starts a new worker if the mesh is different.
+/// Sends the call to the slot's worker; starts a new worker first if the mesh is different.
 void PreviewPool::begin(Slot& slot) {
   Call& call = *slot.call;
   call.sent = true;

@@ -27,7 +27,7 @@ struct PreviewResult {
 };
 
 /// Computes previews of dips while users rotate an object. Each user has a worker that keeps the
-/// mesh in memory as long as requests arrive. A new call replaces the caller's previous one.
+/// mesh in memory as long as requests arrive. A new call ends the user's previous call.
 class PreviewPool {
  public:
   /// @return kFailedPrecondition if workers cannot be confined
@@ -38,7 +38,7 @@ class PreviewPool {
   PreviewPool& operator=(const PreviewPool&) = delete;
 
   /// Computes a preview and waits for it.
-  /// @param gone  returns whether the caller has disconnected; polled
+  /// @param gone  called repeatedly; returns whether the client has disconnected
   /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
   ///         MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; errors of the worker
   [[nodiscard]] Result<PreviewResult> compute(const std::string& owner, const PreviewRequest& ask,
@@ -71,7 +71,7 @@ class PreviewPool {
   std::map<std::string, std::unique_ptr<Slot>> slots_;  // keyed by owner
   std::int64_t last_id_ = 0;
   bool stopping_ = false;
-  std::thread thread_;  // starts all workers, which are killed when it ends
+  std::thread thread_;  // starts all workers, which are killed when the thread ends
 };
 
 }  // namespace hydroprint::daemon

@@ -23,7 +23,7 @@ v1::SimulateSpec object_of(const v1::SimulateSpec& spec) {
   return out;
 }
 
-/// Returns the parts of a spec that change.
+/// Returns the parts of a spec that may change while the object is rotated.
 v1::SimulateSpec dip_of(const v1::SimulateSpec& spec) {
   v1::SimulateSpec out;
   if (spec.has_pose()) *out.mutable_pose() = spec.pose();

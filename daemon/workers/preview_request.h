@@ -13,7 +13,7 @@ namespace hydroprint::daemon {
 
 /// A preview request, ready for a worker's verb `preview` (sim/worker/verbs/preview.h).
 struct PreviewRequest {
-  std::string key;   ///< equal for requests with the same mesh, which one worker can answer
+  std::string key;   ///< requests with equal keys have the same mesh, so one worker can answer them
   std::string spec;  ///< JSON spec of that worker
   std::vector<InputFile> inputs;  ///< input files of that worker
   std::string dip;  ///< members of the request's JSON object, without braces; empty: none

@@ -57,7 +57,7 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
 
 void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
   const std::string line = fmt::format("{{\"id\":{}{}{}}}\n", id, dip.empty() ? "" : ",", dip);
-  // A few hundred bytes, which a pipe takes completely or not at all.
+  // The line has a few hundred bytes, which a pipe accepts completely or not at all.
   ssize_t written = 0;
   do {
     written = ::write(worker_.requests.get(), line.data(), line.size());

@@ -21,7 +21,7 @@ using PreviewFrame = FramedMessage;
 /// the mesh itself. Use it only on the thread that started it.
 class PreviewWorker {
  public:
-  /// @param number  names its folder, which is deleted at the end
+  /// @param number  number in the name of the worker's folder, which the destructor deletes
   /// @return kFailedPrecondition, ASSET_MISSING; kInternal, WORKER_UNUSABLE
   [[nodiscard]] static Result<std::unique_ptr<PreviewWorker>> start(
       const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
@@ -30,7 +30,7 @@ class PreviewWorker {
   PreviewWorker(const PreviewWorker&) = delete;
   PreviewWorker& operator=(const PreviewWorker&) = delete;
 
-  /// Returns the key of the requests that it can answer; see PreviewRequest.
+  /// Returns the key of the requests that this worker can answer; see PreviewRequest::key.
   [[nodiscard]] const std::string& key() const { return key_; }
   [[nodiscard]] int answers_fd() const { return worker_.answer.get(); }
 
@@ -48,7 +48,7 @@ class PreviewWorker {
   std::string key_;
   std::filesystem::path folder_;
   ChildProcess worker_;
-  std::string bytes_;  // read, but not yet a complete message
+  std::string bytes_;  // received bytes of an incomplete message
   std::string words_;
   std::optional<Error> failure_;
 };

@@ -78,8 +78,8 @@ Result<std::vector<sock_filter>> compile_filter() {
   for (const int call : kRefused) {
     good = good && seccomp_rule_add(filter.get(), kRefuse, call, 0) == 0;
   }
-  // A worker may signal its own threads and read its own limits with these calls, but not the
-  // daemon's.
+  // With these calls, a worker may signal its own threads and access its own limits, but not signal
+  // the daemon or access the limits of other processes.
   const auto daemon = static_cast<scmp_datum_t>(::getpid());
   good = good &&
          seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(tgkill), 1,
@@ -113,16 +113,17 @@ bool limit(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
 void raise_oom_score() {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
-  if (::write(file, "500", 3) < 0) errno = 0;  // only a preference
+  if (::write(file, "500", 3) < 0) errno = 0;  // not essential
   ::close(file);
 }
 
-// The rig and the daemon's responses have priority over computations. If the daemon already runs
-// with a lower priority, the call would, as root, raise the priority of its workers.
+// The rig and the daemon's responses have priority over computations. The priority is not changed
+// if the daemon already runs at nice 10 or more: if it runs as root, the call would raise the
+// priority of its workers.
 void give_way() {
   constexpr int kNiceness = 10;
   if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
-  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // only a preference
+  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // not essential
 }
 
 }  // namespace

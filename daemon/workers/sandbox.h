@@ -13,7 +13,7 @@ namespace hydroprint::daemon {
 struct Limits {
   std::int64_t memory_bytes = 0;  ///< 0: no limit
   std::int64_t cpu_s = 0;         ///< processor time, summed over all threads
-  std::int64_t file_bytes = 0;    ///< maximum size of each file that it writes
+  std::int64_t file_bytes = 0;    ///< maximum size of each file that the worker writes
 };
 
 /// Confines a worker, because it reads untrusted files: no network, no access to other processes,
@@ -21,7 +21,7 @@ struct Limits {
 /// before starting workers; confine() runs in the child.
 class Sandbox {
  public:
-  /// Returns kFailedPrecondition if the kernel or the seccomp library does not support it.
+  /// Returns kFailedPrecondition if the kernel or the seccomp library cannot filter system calls.
   [[nodiscard]] static Result<Sandbox> make();
 
   /// Confines the calling process permanently. Runs between fork and exec, so it acquires no locks.

@@ -87,7 +87,8 @@ JobFailure judge_exit(int status, const std::string& words) {
       return failure(Code::kInternal, "WORKER_UNUSABLE",
                      words.empty() ? "the worker cannot be started; check workers.program" : words);
     case 130:
-      return failure(Code::kCancelled, "WORKER_KILLED", "the worker was interrupted by a signal");
+      return failure(Code::kCancelled, "WORKER_KILLED",
+                     "the worker was interrupted by a signal; try again");
     default:
       return failure(Code::kInternal, "COMPUTATION_FAILED",
                      fmt::format("the worker ended with status {}{}{}", status,

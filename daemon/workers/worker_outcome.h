@@ -17,7 +17,7 @@ enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 /// Translates the end of a worker to its job's failure; nullopt if it succeeded.
 /// @param wait_status  from waitpid()
 /// @param errors       its stderr
-/// @param answer       its stdout, which with --json may contain a reason of ErrorReason
+/// @param answer       its stdout, which with --json may contain a reason code of ErrorReason
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StopReason stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});

@@ -84,10 +84,10 @@ struct WorkerPool::Impl {
   Sandbox sandbox;
   ProgramDigest program;
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-  std::vector<std::unique_ptr<WorkerRun>> runs;  // used by the pool's thread
+  std::vector<std::unique_ptr<WorkerRun>> runs;  // used only by the pool's thread
   std::vector<std::pair<std::int64_t, JobFailure>> unstarted;
   std::atomic<bool> stopping{false};
-  mutable std::mutex turns_mutex;  // protects the next two
+  mutable std::mutex turns_mutex;  // protects the next two members
   FairScheduler turns;
   std::map<std::string, int> running;
   std::thread thread;
@@ -202,7 +202,7 @@ std::map<std::string, int> WorkerPool::Impl::running_by_owner() const {
   return out;
 }
 
-// Returns true if another job may be started.
+// Starts the next job, if any. Returns true if another job may be started.
 bool WorkerPool::Impl::start_next() {
   const auto pause = queue.pause();
   const auto waiting = queue.waiting();
@@ -217,7 +217,8 @@ bool WorkerPool::Impl::start_next() {
   if (!job) {
     log(LogLevel::kError, "job_not_started",
         {{"job", next.front()}, {"message", job.error().message}});
-    // A job that was just cancelled: check again. A store error: wait for the next wake-up.
+    // If the job was just cancelled or deleted, try the next one. After a store error, wait for the
+    // next wake-up.
     return job.error().code == Code::kFailedPrecondition || job.error().code == Code::kNotFound;
   }
   {
@@ -268,7 +269,8 @@ std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   return out;
 }
 
-// If the store fails, this is retried with every step.
+// Stores the failure of jobs whose worker could not be started. If the store fails, every step
+// tries this again.
 void WorkerPool::Impl::give_up_unstarted() {
   std::erase_if(unstarted, [&](const auto& entry) {
     const auto ended = store.give_up(entry.first, entry.second);

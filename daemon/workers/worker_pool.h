@@ -17,9 +17,9 @@ namespace hydroprint::daemon {
 /// Settings for running workers.
 struct PoolOptions {
   std::filesystem::path program;
-  int slots = 1;                  ///< maximum number of workers
-  int cores = 1;                  ///< divided among workers if `threads` is 0
-  int threads = 0;                ///< number of threads per worker
+  int slots = 1;    ///< maximum number of workers
+  int cores = 1;    ///< number of processor cores, divided among workers if `threads` is 0
+  int threads = 0;  ///< number of threads per worker; 0: a share of the cores
   std::int64_t memory_bytes = 0;  ///< limit per worker; 0: no limit
   std::int64_t time_limit_s = 3600;
   std::int64_t file_bytes = 4LL << 30;
@@ -30,7 +30,8 @@ struct PoolOptions {
 /// no worker survives a killed daemon.
 class WorkerPool final : public JobExecutor {
  public:
-  /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
+  /// @return kFailedPrecondition if workers cannot be confined; kInternal, WORKER_UNUSABLE if the
+  /// program does not exist
   [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
                                                                 JobStore& store, JobQueue& queue,
                                                                 const Layout& layout, Clock clock);
@@ -46,7 +47,7 @@ class WorkerPool final : public JobExecutor {
   /// Ends the workers and waits a few seconds at most. Their jobs stay RUNNING or CANCELLING in the
   /// store: see JobStore::interrupt_all().
   void stop() override;
-  /// Makes the pool check the store immediately (new job, cancellation).
+  /// Makes the pool check the store immediately, for example for a new job or a cancellation.
   void wake();
 
   /// Returns the ids of queued jobs in the order in which they would start now; at most `limit`.

@@ -12,7 +12,7 @@ using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGrace{3};
-// Each progress report is a transaction on disk.
+// Reports are limited because each is a transaction on disk.
 constexpr milliseconds kReportInterval{250};
 constexpr std::chrono::seconds kTryAgainAfter{1};
 constexpr std::size_t kWordsKept = 16 << 10;
@@ -127,7 +127,7 @@ void WorkerRun::watch_limits() {
   if (kill_at_ && now >= *kill_at_) signal_group(worker_, SIGKILL);
 }
 
-// Returns true once the worker has ended; kills its children.
+// Once the worker has ended, kills its children and returns true.
 bool WorkerRun::reap() {
   const auto status = wait_for_end(worker_);
   if (!status) return false;
@@ -150,7 +150,8 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
   return out;
 }
 
-// Other jobs need the pool's thread while large files are hashed and synced.
+// Publishes in a separate thread, because other jobs need the pool's thread while large files are
+// hashed and synced.
 void WorkerRun::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
     auto result = publish();

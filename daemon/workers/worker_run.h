@@ -14,7 +14,7 @@
 namespace hydroprint::daemon {
 
 /// Runs one job in its worker, from the start of the process to the end of the job in the store.
-/// Used only by the pool's thread; never blocks.
+/// Used by one thread (of the pool or of a capture), which it never blocks.
 class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -70,9 +70,9 @@ class WorkerRun {
   StopReason stopped_ = StopReason::kNothing;
   std::optional<Time> kill_at_;
   std::optional<int> wait_status_;
-  std::string words_;                 // end of its stderr
-  std::string answer_;                // end of its stdout
-  std::string progress_bytes_;        // an incomplete line
+  std::string words_;                 // last bytes of the worker's stderr
+  std::string answer_;                // last bytes of the worker's stdout
+  std::string progress_bytes_;        // received bytes of an incomplete line
   std::optional<Progress> progress_;  // not yet reported
   Time next_report_, next_end_;
   std::future<Result<Outcome>> publishing_;

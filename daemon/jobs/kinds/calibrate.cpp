@@ -65,7 +65,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
  private:
   /// If a capture job is named, the frames are taken from it. Missing fields are taken from other
   /// sources: layout from the configuration, lens from the active camera calibration, gripper
-  /// height from the capture.
+  /// height from the configuration and the axis position during the capture.
   [[nodiscard]] Status resolve_spec(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
                                     const JobSources& sources) const override {
     if (!shown.capture_job().empty()) {

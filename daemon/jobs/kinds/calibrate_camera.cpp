@@ -1,4 +1,4 @@
-// Computes the camera's lens from views of the calibration board.
+// Calibrates the camera's lens from views of the calibration board.
 #include <fmt/format.h>
 
 #include "daemon/jobs/adopted_files.h"
@@ -13,8 +13,8 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMostViews = 30;
-constexpr std::size_t kLargestCamera = 16
-                                       << 20;  // with its fixed pattern; same limit as in calibrate
+// camera.json includes the camera's fixed pattern. Workers read JSON files up to the same size.
+constexpr std::size_t kLargestCamera = 16 << 20;
 
 class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
  public:
@@ -50,7 +50,8 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
                                     const JobSources& sources) const override {
     if (shown.capture_jobs().empty()) return {};
     if (shown.capture_jobs_size() > kMostViews) {
-      return invalid_field("calibrate_camera.capture_jobs", "has more than 30 entries");
+      return invalid_field("calibrate_camera.capture_jobs",
+                           "has more than 30 entries; leave some out");
     }
     int view = 0;
     for (const std::string& capture : shown.capture_jobs()) {

@@ -1,4 +1,4 @@
-// Makes a page that shows where to place the object.
+// Creates a page that shows where to place the object.
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/referenced_job.h"
 #include "daemon/jobs/spec_fields.h"

@@ -25,11 +25,11 @@ struct AssetUser {
 [[nodiscard]] Status check_may_use(Database& database, const std::vector<InputFile>& inputs,
                                    const AssetUser& user);
 
-/// Names of an asset's owners.
+/// Returns the names of an asset's owners.
 [[nodiscard]] Result<std::vector<std::string>> owners_of(Database& database,
                                                          const std::string& sha256);
 
-/// Adds an owner; no error if they are one already.
+/// Adds an owner to an asset. Not an error if the user already is an owner.
 [[nodiscard]] Status add_owner(Database& database, const std::string& sha256,
                                const std::string& owner, std::int64_t now_ms);
 

@@ -60,7 +60,8 @@ Status AssetRetention::purge_unused() {
 }
 
 // Handles a crash during Uploads::complete(): a verified file has its final name but no row. If
-// several uploads have the same hash, the owner is unknown, and they are sent again.
+// several uploads have the same hash, the owner is unknown, so the clients must upload the file
+// again.
 Status AssetRetention::adopt_completed_uploads() {
   std::vector<Upload> open;
   HP_RETURN_IF_ERROR(database_.each(
@@ -86,7 +87,8 @@ Status AssetRetention::adopt_completed_uploads() {
   return {};
 }
 
-// Keeps the rows: the folder may be absent only temporarily, and a new upload restores the asset.
+// Keeps the rows of missing files: the folder may be absent only temporarily, and a new upload
+// restores the asset.
 Status AssetRetention::log_missing_files() {
   int missing = 0;
   HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {

@@ -11,15 +11,15 @@ namespace hydroprint::daemon {
 /// Retention of assets and uploads, and their repair after a crash. Thread-safe.
 class AssetRetention {
  public:
-  /// @param keep_unused_ms  how long assets are kept that no job uses; 0: for ever
+  /// @param keep_unused_ms  how long assets that no job uses are kept; 0: for ever
   AssetRetention(Database& database, const Layout& layout, std::int64_t keep_unused_ms,
                  Clock clock);
 
   /// Deletes expired uploads and their files. Also deletes, oldest first and with a log entry each,
-  /// assets that no job uses and that have not been requested for too long.
+  /// assets that no job uses and that were last uploaded, or used by a new job, too long ago.
   [[nodiscard]] Status purge();
-  /// Repairs the store after a crash: adopts verified uploads without a row, sets aside files
-  /// without a row, and logs rows without a file. Call this before serving clients.
+  /// Repairs the store after a crash: turns verified uploads without an asset row into assets, sets
+  /// aside files without a row, and logs rows without a file. Call this before serving clients.
   [[nodiscard]] Status sweep();
 
  private:

@@ -11,8 +11,8 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The owner of a job that uses an asset must stay its owner; otherwise the bytes would count for no
-// owner.
+// The owner of a job that uses an asset must remain an owner of the asset; otherwise its bytes
+// might not count towards any quota.
 Status check_is_not_used_by(Database& database, const std::string& sha256,
                             const std::string& owner) {
   HP_ASSIGN_OR_RETURN(
@@ -64,7 +64,7 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Asset asset, asset_for(sha256, user));
     if (!user.is_operator) {
-      if (asset.owners.empty()) return asset_not_found(sha256);  // from a job that the user may see
+      if (asset.owners.empty()) return asset_not_found(sha256);  // visible only through a job
       HP_RETURN_IF_ERROR(check_is_not_used_by(database_, sha256, user.name));
       HP_RETURN_IF_ERROR(database_.run("DELETE FROM asset_owners WHERE owner=? AND sha256=?",
                                        {user.name, sha256}));
@@ -78,8 +78,8 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
                        {sha256}));
     if (!jobs.empty()) {
       return fail(Code::kFailedPrecondition,
-                  fmt::format("assets/{} is needed by {}; cancel that or wait for its end", sha256,
-                              job_name(jobs.front())),
+                  fmt::format("assets/{} is needed by {}; cancel that job or wait for its end",
+                              sha256, job_name(jobs.front())),
                   "STATE_FORBIDS");
     }
     return database_.run("DELETE FROM assets WHERE sha256=?", {sha256});
@@ -95,7 +95,7 @@ Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& 
   const Status done = database_.transaction([&]() -> Status {
     const auto known = select_asset(database_, as.sha256);
     if (known && has_file(layout_, *known)) return insert_asset(database_, as, clock_());
-    discard(final_path);  // left, perhaps incomplete, by a crash
+    discard(final_path);  // left by a crash, perhaps incomplete
     HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
     ::chmod(final_path.c_str(), 0400);
     HP_RETURN_IF_ERROR(sync_path(final_path));

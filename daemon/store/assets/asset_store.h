@@ -12,28 +12,29 @@
 
 namespace hydroprint::daemon {
 
-/// Stores assets. An asset exists once its row does. Several owners may have uploaded the same
+/// Stores assets. An asset exists once its row is stored. Several owners may have uploaded the same
 /// asset (asset_owners.h). Thread-safe.
 class AssetStore {
  public:
   AssetStore(Database& database, const Layout& layout, Clock clock);
 
-  /// The asset, with the owners that the user may know. ASSET_NOT_FOUND, also if the user may
-  /// not use it.
+  /// Returns an asset. Operators see all its owners, other users only themselves. Errors:
+  /// ASSET_NOT_FOUND, also if the user may not use the asset.
   [[nodiscard]] Result<Asset> asset_for(const std::string& sha256, const AssetUser& user);
-  /// Adds a complete, synced file with that hash as an asset without an owner, unless the asset
-  /// exists. The file remains but becomes read-only.
+  /// Adds a complete, synced file with the hash `as.sha256` as an asset without an owner, unless
+  /// the asset exists. The file itself remains; it may become read-only, because the asset may be a
+  /// hard link to it.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
-  /// Assets with hashes after `after`, sorted by hash, with their owners. Lists those of one owner,
-  /// or all if `owner` is empty.
+  /// Returns the assets with hashes after `after`, sorted by hash, with their owners. Lists those
+  /// of one owner, or all if `owner` is empty.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit,
                                                 const std::string& owner);
   /// Deletes an asset. An operator deletes it for everybody. Other users only stop owning it, which
   /// is possible if none of their jobs uses it; it is deleted once it has no owner and no job uses
   /// it.
-  /// @return kFailedPrecondition, STATE_FORBIDS if a job uses it (for an operator: an unfinished
-  /// job); ASSET_NOT_FOUND
+  /// @return kFailedPrecondition, STATE_FORBIDS if one of the user's jobs uses the asset (for an
+  /// operator: an unfinished job of any user); ASSET_NOT_FOUND
   [[nodiscard]] Status remove(const std::string& sha256, const AssetUser& user);
 
  private:

@@ -14,10 +14,11 @@
 namespace hydroprint::daemon {
 
 tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
-  auto error = fail(
-      code,
-      fmt::format("more than {} bytes; send the announced size, within assets.max_mib", max_bytes),
-      "ASSET_TOO_LARGE");
+  auto error = fail(code,
+                    fmt::format("the file has more than {} bytes; send at most the announced size, "
+                                "and at most assets.max_mib",
+                                max_bytes),
+                    "ASSET_TOO_LARGE");
   error.value().metadata["max_bytes"] = fmt::to_string(max_bytes);
   return error;
 }
@@ -90,7 +91,8 @@ Result<Upload> Uploads::get(const std::string& id, const std::string& owner) {
                   row.text(3), row.integer(4), row.text(5)};
       }));
   if (upload.id.empty()) {
-    return fail(Code::kNotFound, "uploads/" + id + ": there is no such upload; start it again",
+    return fail(Code::kNotFound,
+                "uploads/" + id + ": there is no such upload; start the upload again",
                 "UPLOAD_NOT_FOUND");
   }
   upload.received_bytes = std::min(size_on_disk(layout_.upload(id)), upload.size_bytes);
@@ -101,7 +103,7 @@ Status Uploads::claim(const std::string& id) {
   const std::lock_guard lock(busy_mutex_);
   if (busy_.insert(id).second) return {};
   return fail(Code::kAborted,
-              "uploads/" + id + ": another call is writing to this upload; wait for its end",
+              "uploads/" + id + ": another call is writing to this upload; wait until it ends",
               "UPLOAD_BUSY");
 }
 

@@ -29,9 +29,10 @@ class Uploads {
           const UploadOptions& options, Clock clock);
 
   /// Returns the asset if its bytes are stored and the user may use them, and makes the user an
-  /// owner. Otherwise starts an upload, or returns the one that the same request started.
+  /// owner. Otherwise starts an upload, or returns the one that an earlier request with the same id
+  /// started.
   /// @return kResourceExhausted: ASSET_TOO_LARGE, DISK_FULL, UPLOADS_FULL, QUOTA_EXCEEDED;
-  /// REQUEST_ID_REUSED
+  /// kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const AssetUser& user,
                                             const RequestKey& request);
   /// Returns an upload of this owner. Errors: kNotFound, UPLOAD_NOT_FOUND.
@@ -61,7 +62,7 @@ class Uploads {
   UploadOptions options_;
   Clock clock_;
   std::mutex busy_mutex_;
-  std::set<std::string> busy_;  // uploads that have a writer
+  std::set<std::string> busy_;  // ids of uploads that have a writer
 };
 
 /// Returns the error ASSET_TOO_LARGE, with metadata `max_bytes`.

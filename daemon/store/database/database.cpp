@@ -31,20 +31,20 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
                 "DISK_FULL");
   }
   return fail(Code::kInternal,
-              std::string("the job database: ") + sqlite3_errmsg(db) +
+              std::string("the job database cannot be used: ") + sqlite3_errmsg(db) +
                   "; check the state folder's disk and permissions",
               "STORE_FAILED");
 }
 
 // Copies the write-ahead log to the database, so that the log starts again and does not need to
-// grow. A change that failed because the disk was full may then succeed. If this fails, it does no
+// grow. A change that failed because the disk was full may then succeed. A failure to copy does no
 // harm.
 void empty_log(sqlite3* db) {
   sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
 // Reserves empty pages in the file and space in its log. They are needed to store the end of a job
-// when the disk is full. If this fails, it does no harm.
+// when the disk is full. A failure to reserve them does no harm.
 void keep_room(sqlite3* db) {
   sqlite3_exec(db,
                "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "

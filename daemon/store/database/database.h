@@ -16,7 +16,7 @@ namespace hydroprint::daemon {
 /// A value bound to a statement: NULL, integer, real, or bytes.
 using DbValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// One row of a result, valid only during the callback.
+/// One row of a result, valid only during the callback of Database::each().
 class DbRow {
  public:
   explicit DbRow(void* statement) : statement_(statement) {}
@@ -29,8 +29,8 @@ class DbRow {
   void* statement_;
 };
 
-/// An SQLite file, in WAL mode and synchronous=FULL: a transaction is on disk when it returns.
-/// Thread-safe; calls run one at a time, and a transaction counts as one call.
+/// An SQLite file, in WAL mode and synchronous=FULL: committed changes are on disk when the call
+/// returns. Thread-safe; calls run one at a time, and a transaction counts as one call.
 class Database {
  public:
   /// Opens or creates the file and runs `schema` (statements that can be run repeatedly).
@@ -41,8 +41,8 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Runs one statement. A full disk is kResourceExhausted, DISK_FULL; other errors are kInternal,
-  /// STORE_FAILED.
+  /// Runs one statement. Errors: kResourceExhausted, DISK_FULL if the disk is full; otherwise
+  /// kInternal, STORE_FAILED.
   [[nodiscard]] Status run(const std::string& sql, std::initializer_list<DbValue> values = {});
 
   /// Runs one statement and calls `row` for each row.
@@ -52,9 +52,10 @@ class Database {
   /// Runs `body` as one transaction; an error rolls all of it back.
   [[nodiscard]] Status transaction(const std::function<Status()>& body);
 
-  /// Returns the key of the last inserted row; only within a transaction.
+  /// Returns the key of the last inserted row. Call this only within a transaction.
   [[nodiscard]] std::int64_t last_id() const;
-  /// Returns the number of rows that the last statement changed; only within a transaction.
+  /// Returns the number of rows that the last statement changed. Call this only within a
+  /// transaction.
   [[nodiscard]] std::int64_t changes() const;
 
  private:

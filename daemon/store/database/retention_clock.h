@@ -17,7 +17,8 @@ namespace hydroprint::daemon {
 /// @return the jump in ms; 0 if there was none
 [[nodiscard]] Result<std::int64_t> follow_clock(Database& database, std::int64_t now_ms);
 
-/// Returns the time for records with a fixed time (the audit log): `now_ms` minus all jumps so far.
+/// Returns the time for records whose time is never shifted (the audit log): `now_ms` minus all
+/// jumps so far.
 [[nodiscard]] Result<std::int64_t> credible_time_ms(Database& database, std::int64_t now_ms);
 
 }  // namespace hydroprint::daemon

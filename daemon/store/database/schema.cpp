@@ -6,7 +6,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// Statements that migrate the store from the previous version to this one.
+/// Statements that migrate the store from the previous version to the version `to`.
 struct Migration {
   std::int64_t to;
   std::vector<const char*> statements;
@@ -14,7 +14,7 @@ struct Migration {
 
 const std::vector<Migration>& migrations() {
   static const std::vector<Migration> all{
-      // Users. `role` is a number of hydroprint.v1.Role.
+      // Version 2: users. `role` is a number of hydroprint.v1.Role.
       {2,
        {"CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT "
         "NULL, "
@@ -35,8 +35,9 @@ const std::vector<Migration>& migrations() {
         "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
         "CREATE INDEX audit_by_time ON audit(time_ms)",
         "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
-      // Version 3: quotas and retention. Assets used by a job become its owner's; all assets count
-      // as used now. Retention of a finished job starts at `keep_from_ms`.
+      // Version 3: quotas and retention. The owner of a job becomes an owner of the assets that the
+      // job uses. All assets count as last used at the time of the migration. Retention of a
+      // finished job starts at `keep_from_ms`.
       {3,
        {"CREATE TABLE asset_owners(owner TEXT NOT NULL, "
         "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
@@ -53,7 +54,7 @@ const std::vector<Migration>& migrations() {
         "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
         "WITHOUT ROWID"}},
       // Version 4: the spec of a job is stored as JSON; earlier jobs keep their flags. Properties
-      // of the kind are columns of the row.
+      // of a job's kind become columns of the job's row.
       {4,
        {"ALTER TABLE jobs ADD COLUMN spec TEXT NOT NULL DEFAULT ''",
         "ALTER TABLE jobs ADD COLUMN computed INTEGER NOT NULL DEFAULT 1",

@@ -8,20 +8,21 @@
 namespace hydroprint::daemon {
 
 /// Opens or creates the store, and migrates a store of an earlier version in one transaction.
-/// @return as Database::open(); kFailedPrecondition, STORE_TOO_NEW for a store of a later version
+/// @return errors of Database::open(); kFailedPrecondition, STORE_TOO_NEW for a store of a later
+/// version
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path);
 
 /// Opens a store of this version without changing it, for programs that run beside the daemon.
-/// @return kFailedPrecondition: STORE_TOO_NEW, or without a reason for a store of an earlier
-///         version
+/// @return kFailedPrecondition: STORE_TOO_NEW for a store of a later version, without a reason code
+///         for one of an earlier version
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store_as_it_is(
     const std::filesystem::path& path);
 
 /// Tables of the store in version 1; schema.cpp has the later changes. `jobs.flags` has one flag
 /// per line; `jobs.body`, `dips.status` and `calibrations.body` are serialised messages.
-/// `losses.count` is the number of times that the daemon was lost while the job ran. `lease` has at
-/// most one row. `calibrations.job` is 0 for a manual entry. `captures` outlive their jobs, because
-/// calibrations do.
+/// `losses.count` is the number of times that the daemon was killed, or its machine crashed, while
+/// the job ran. `lease` has at most one row. `calibrations.job` is 0 for a manual entry. `captures`
+/// outlive their jobs, because calibrations do.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');

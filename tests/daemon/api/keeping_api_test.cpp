@@ -159,9 +159,10 @@ TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageIsReported) {
   v1::StartUploadResponse started;
   const auto refused = maker.start_upload(larger, started);
   expect_refused(refused, StatusCode::RESOURCE_EXHAUSTED, "QUOTA_EXCEEDED");
-  EXPECT_EQ(refused.error_message(),
-            "maker uses 3 of 4 MiB, and this needs 3 MiB more; delete jobs (hydroprint list "
-            "--mine, delete) or files (hydroprint assets list, delete)");
+  EXPECT_EQ(
+      refused.error_message(),
+      "maker uses 3 of 4 MiB, and this needs 3 MiB more; delete jobs (hydroprint list "
+      "--mine, hydroprint delete) or files (hydroprint assets list, hydroprint assets delete)");
   EXPECT_TRUE((*this)["other"].start_upload(larger, started).ok());
   v1::Usage usage;
   expect_refused((*this)["other"].usage("maker", usage), StatusCode::PERMISSION_DENIED,
