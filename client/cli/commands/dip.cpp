@@ -42,7 +42,7 @@ Status check_terminal(const DipOptions& options) {
               "confirm JOB STEP' for each step, or --yes-to-all on the virtual rig");
 }
 
-// On Ctrl-C the daemon aborts the dip; waits until it has.
+// Cancels the dip after Ctrl-C, and waits until the daemon has aborted it.
 Result<v1::Job> abort_dip(const Program& program, const std::string& job) {
   client::Connection daemon = program.uninterrupted();
   HP_RETURN_IF_ERROR(client::cancel_job(daemon, job));
@@ -58,7 +58,7 @@ Result<v1::Job> follow(Program& program, const HeldLease& lease, const v1::Job& 
 Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::Job& job) {
   auto ended = follow(program, lease, job);
   if (ended || ended.error().code != Code::kCancelled) return ended;
-  if (!program.is_interrupted()) return ended;  // the terminal was closed
+  if (!program.is_interrupted()) return ended;  // the terminal was closed, and the dip continues
   std::cerr << "aborting " << job.name() << std::endl;
   return abort_dip(program, job.name());
 }
