@@ -106,8 +106,8 @@ void add_name(CLI::App& command, client::JobOptions& job) {
 constexpr char kCalibrateFooter[] =
     "Captures frames, unless --capture-job or --frames is given, and computes the object's pose\n"
     "over the film from them. The result is stored as a calibration and becomes active.\n"
-    "'hydroprint submit simulate --calibration active' and 'hydroprint dip' use it. It stays valid\n"
-    "until the axis moves.\n\n"
+    "'hydroprint submit simulate --calibration active' and 'hydroprint dip' use it. It stays\n"
+    "valid until the axis moves.\n\n"
     "Examples:\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --out held\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --capture-job 5 --camera 2";
