@@ -33,7 +33,7 @@ export function address(path: string, query: Options['query'] = {}): string {
     for (const one of Array.isArray(value) ? value : [value]) parts.append(key, String(one));
   }
   const text = parts.toString();
-  // Names are untrusted and may contain any character. The API itself uses ":" and "/".
+  // Names are untrusted and may contain any character, so all are encoded except ":" and "/", which the API uses.
   const plain = path.split('/').map(encodeURIComponent).join('/').replaceAll('%3A', ':');
   return `/v1/${plain}${text ? `?${text}` : ''}`;
 }

@@ -1,4 +1,4 @@
-/** The draft of a new print. It is kept with its files across reloads until it is submitted. */
+/** The draft of a new print. It is kept with its files across reloads until the user starts over. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import * as rules from '../../api/rules';
 import { jobs as jobsApi } from '../../api/services';
