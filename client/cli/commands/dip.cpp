@@ -107,12 +107,12 @@ Status dip(Program& program, const DipOptions& options) {
 }
 
 constexpr char kDipFooter[] =
-    "Needs an armed and homed rig. Acquires the lease ('hydroprint rig lease') unless you have it,\n"
-    "and keeps it during the dip. On a terminal, this command shows each step with its instruction\n"
-    "and timer; Enter confirms a step. To find first contact, hold Down or j to go down, Up or k to\n"
-    "go up (see 'hydroprint rig jog --help'). Ctrl-C aborts the dip and prints what to do with film\n"
-    "and object. If this command ends unexpectedly, the dip continues; resume with\n"
-    "'hydroprint watch JOB' and 'hydroprint confirm JOB STEP'.\n\n"
+    "Needs an armed and homed rig. Acquires the lease ('hydroprint rig lease') unless you\n"
+    "have it, and keeps it during the dip. On a terminal, this command shows each step with\n"
+    "its instruction and timer; Enter confirms a step. To find first contact, hold Down or j\n"
+    "to go down, Up or k to go up (see 'hydroprint rig jog --help'). Ctrl-C aborts the dip\n"
+    "and prints what to do with film and object. If this command ends unexpectedly, the dip\n"
+    "continues; resume with 'hydroprint watch JOB' and 'hydroprint confirm JOB STEP'.\n\n"
     "Examples:\n"
     "  hydroprint dip --simulate-job 7 --water-temperature-c 24 --out record\n"
     "  hydroprint dip --depth-mm 20 --yes-to-all\n"
