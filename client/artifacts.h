@@ -18,9 +18,9 @@ namespace hydroprint::client {
                                                                const std::string& job);
 
 /// Downloads an artifact into `folder` (created if missing) under its file name. The bytes go into
-/// a hidden file beside it, from which a later attempt resumes. The final file appears only when it
-/// is complete and its SHA-256 matches. An existing file with the same bytes is kept; one with
-/// other bytes is replaced.
+/// a hidden file in `folder`, from which a later attempt resumes. The final file appears only when
+/// all bytes have arrived and their SHA-256 matches. An existing file with the same bytes is kept;
+/// one with other bytes is replaced.
 /// @return the file's path; kDataLoss if the bytes are not what the daemon announced
 [[nodiscard]] Result<std::filesystem::path> download(Connection& connection,
                                                      const v1::Artifact& artifact,

@@ -6,8 +6,8 @@
 
 namespace hydroprint::client {
 
-/// Returns the current picture; waits some seconds while the camera starts. Errors: see
-/// CameraService.GetDepthPicture.
+/// Returns the current depth picture. If the camera has to start first, waits for up to 5 s.
+/// Errors: see CameraService.GetDepthPicture.
 [[nodiscard]] Result<v1::DepthPicture> depth_picture(Connection& connection);
 
 }  // namespace hydroprint::client

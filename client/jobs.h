@@ -25,9 +25,9 @@ struct JobOptions {
 [[nodiscard]] Result<v1::Job> create_job(Connection& connection, v1::Job job,
                                          const JobOptions& options = {});
 
-/// Creates a dip, whose state is WAITING_FOR_OPERATOR immediately. The request is sent once,
-/// because with `yes_to_all` it moves the axis. If the response is lost (kUnavailable), call
-/// list_jobs before another attempt.
+/// Creates a dip job, which waits for the operator immediately (WAITING_FOR_OPERATOR). The request
+/// is sent once, because with DipSpec.yes_to_all it moves the axis. If the response is lost
+/// (kUnavailable), call list_jobs before another attempt.
 /// @param lease_id  the caller's lease of the rig
 [[nodiscard]] Result<v1::Job> create_dip(Connection& connection, const v1::DipSpec& spec,
                                          const std::string& lease_id,
@@ -65,7 +65,8 @@ struct JobFilter {
 
 [[nodiscard]] Result<v1::Job> cancel_job(Connection& connection, const std::string& name);
 
-/// Queues a new job with the spec of a finished one and computes it without the cache.
+/// Queues a new job with the spec of a finished job. The daemon computes it without using cached
+/// results.
 [[nodiscard]] Result<v1::Job> retry_job(Connection& connection, const std::string& name);
 
 /// Pins a job, which exempts it from retention, or unpins it.
@@ -79,7 +80,7 @@ struct JobFilter {
                                                                 const std::string& name);
 
 /// Follows a job until it is finished and reports each message of the stream. Resumes after a lost
-/// connection; fails after a minute without a message from the daemon.
+/// connection, for up to a minute after the last message from the daemon.
 /// @param lost  called once each time the connection is lost
 /// @return the finished job; kCancelled if the connection is stopped (the job continues)
 [[nodiscard]] Result<v1::Job> watch_job(

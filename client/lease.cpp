@@ -8,7 +8,8 @@ namespace {
 
 using LeaseStub = v1::LeaseService::Stub;
 
-// All of these requests may be sent twice, because acquiring carries a request_id.
+// Sends a request that may be repeated: acquiring carries a request_id, and the other requests have
+// the same effect when sent twice.
 template <class Request, class Response>
 Result<Response> ask(Connection& connection,
                      grpc::Status (LeaseStub::*method)(grpc::ClientContext*, const Request&,

@@ -9,7 +9,7 @@
 
 namespace hydroprint::client {
 
-/// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if nobody holds it.
+/// Returns the lease without its id; kNotFound (LEASE_NOT_FOUND) if nobody holds it.
 [[nodiscard]] Result<v1::Lease> get_lease(Connection& connection);
 
 /// Acquires the lease if it is free.
@@ -23,7 +23,7 @@ namespace hydroprint::client {
 [[nodiscard]] Result<v1::Lease> renew_lease(Connection& connection, const std::string& lease_id,
                                             std::chrono::seconds ttl);
 
-/// Releases the lease; not an error if the caller no longer holds it. Ends a jog.
+/// Releases the lease; not an error if the caller no longer holds it. A running jog is stopped.
 [[nodiscard]] Status release_lease(Connection& connection, const std::string& lease_id);
 
 /// Ends the lease of another client, with a reason for the daemon's log. A jog ends; a dip

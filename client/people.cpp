@@ -9,7 +9,8 @@ using PeopleStub = v1::PeopleService::Stub;
 
 PeopleStub& people(Connection& connection) { return *connection.impl().people; }
 
-// The prefix client:: is required: argument-dependent lookup also finds protobuf's call_once.
+// Calls of call_once() need the prefix client::, because argument-dependent lookup also finds
+// protobuf's function of that name.
 
 // Sends a request that holds only a name and expects an empty response.
 template <class Request>

@@ -21,7 +21,7 @@ namespace hydroprint::client {
 [[nodiscard]] Result<v1::Usage> get_usage(Connection& connection);
 
 [[nodiscard]] Result<v1::ListUsersResponse> list_users(Connection& connection);
-/// Adds a user. Without a password, the user needs create_sign_in_link().
+/// Adds a user. A user without a password signs in with a link at first (create_sign_in_link()).
 [[nodiscard]] Result<v1::User> create_user(Connection& connection,
                                            const v1::CreateUserRequest& request);
 [[nodiscard]] Result<v1::User> update_user(Connection& connection,

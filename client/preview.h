@@ -7,7 +7,7 @@
 namespace hydroprint::client {
 
 /// Computes a preview. Uses these fields of the spec: mesh with its files, profile, scale, pose,
-/// film, depth and speed. Errors: see PreviewService.ComputePreview.
+/// film, immersion depth and dip speed. Errors: see PreviewService.ComputePreview.
 [[nodiscard]] Result<v1::Preview> compute_preview(Connection& connection,
                                                   const v1::SimulateSpec& spec);
 

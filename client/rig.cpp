@@ -10,7 +10,8 @@ namespace {
 
 using RigStub = v1::RigService::Stub;
 
-// The next jog command follows in 100 ms, so a delayed one must not take effect late.
+// Deadline of a jog command. The next command follows after 100 ms, so a delayed command must not
+// take effect late.
 constexpr std::chrono::milliseconds kJogAnswerLimit{250};
 
 template <class Request>

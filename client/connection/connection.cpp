@@ -15,9 +15,9 @@ grpc::ChannelArguments channel_arguments() {
   // The daemon is on this machine or the local network, so a proxy from the environment is ignored.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also the limit for connecting
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also limits an attempt to connect
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  arguments.SetMaxReceiveMessageSize(64 << 20);  // a preview of a large mesh
+  arguments.SetMaxReceiveMessageSize(64 << 20);  // enough for the preview of a large mesh
   return arguments;
 }
 

@@ -8,13 +8,14 @@
 
 namespace hydroprint::client {
 
-/// Metadata key for all wrong fields of a request, one per line, if there are several.
+/// Key in the metadata of an error that lists all wrong fields of a request, one per line, if there
+/// are several.
 inline constexpr const char* kWrongFields = "wrong_fields";
 
 /// The address of a daemon, and the caller's identity.
 struct ConnectionOptions {
   std::string server = "127.0.0.1:50051";  ///< "host:port" (ServerAddress::text())
-  std::string owner;     ///< owner of new objects if there are no users; empty: none
+  std::string owner;     ///< owner of new objects if the daemon has no users; empty: none
   std::string api_key;   ///< "hp_ID_SECRET"; empty: none
   std::string session;   ///< token returned by sign_in(); empty: none
   std::stop_token stop;  ///< once a stop is requested, every call soon returns kCancelled
@@ -22,17 +23,17 @@ struct ConnectionOptions {
   std::string ca_pem;    ///< certificates of the trusted authorities; empty: the system's
 };
 
-/// Returns kFailedPrecondition if a password or key would be sent to another machine without TLS,
-/// where it could be read. Connections never do that; this function explains why.
+/// Returns kFailedPrecondition if the server is another machine and the connection does not use
+/// TLS, because a password or key could then be read on the way. A Connection never sends them in
+/// that case; this error explains why.
 [[nodiscard]] Status check_secrets_may_go(const ConnectionOptions& options);
 
 /// A connection to one daemon, opened on first use and reopened when it breaks. The functions with
-/// a Connection parameter may be called from several threads (jobs.h, rig.h, lease.h, assets.h,
-/// artifacts.h, calibration.h, people.h, queue.h, health.h).
-/// If the daemon does not respond, calls that are safe to repeat are retried for about a second,
-/// then return kUnavailable. Calls that create something are also safe, because they carry a
-/// request_id. Calls that move the rig are never repeated. Errors of the daemon keep their code,
-/// message and reason.
+/// a Connection parameter may be called from several threads. If the daemon does not respond, calls
+/// that are safe to repeat are retried for about a second, then return kUnavailable. Calls that
+/// create a job, upload, calibration or lease are also safe, because they carry a request_id. Calls
+/// that move the rig, sign in, or change users, keys or sessions are never repeated. Errors of the
+/// daemon keep their code, message and reason.
 class Connection {
  public:
   explicit Connection(ConnectionOptions options);

@@ -32,7 +32,7 @@ struct Connection::Impl {
 
   ConnectionOptions options;
   std::shared_ptr<grpc::Channel> channel;
-  bool keeps_secrets;  ///< check_secrets_may_go()
+  bool keeps_secrets;  ///< passwords and keys may be sent; see check_secrets_may_go()
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
   std::unique_ptr<v1::AssetService::Stub> assets;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
@@ -101,8 +101,8 @@ template <class Stub, class Request, class Response>
   return response;
 }
 
-/// Makes a call that is never repeated, because a command to the rig must not be sent again before
-/// its result is known.
+/// Makes a call that is never repeated. For example, a command to the rig must not be sent again
+/// before the result of the first attempt is known.
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> call_once(Connection& connection, Stub& stub,
                                          grpc::Status (Stub::*method)(grpc::ClientContext*,
@@ -117,8 +117,8 @@ template <class Stub, class Request, class Response>
   return response;
 }
 
-/// Requests pages until there are `limit` items or no further page, and joins them. The page token
-/// is that of the last page.
+/// Requests pages until there are `limit` items or no further page, and joins them. The result has
+/// the page token of the last page.
 /// @param count  number of items in a response, for example &v1::ListJobsResponse::jobs_size
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> all_pages(Connection& connection, Stub& stub,

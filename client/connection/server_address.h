@@ -15,12 +15,13 @@ struct ServerAddress {
 
   /// Returns "rig.example.org:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Returns whether the host is this machine, by a name that cannot be redirected elsewhere.
+  /// Returns whether the host is "localhost" or a loopback address. Any other name of this machine
+  /// could be redirected to another machine.
   [[nodiscard]] bool is_loopback() const;
 };
 
 /// Parses "127.0.0.1:50051", "rig.example.org:50051", or "https://rig.example.org:50051" (TLS; the
-/// port may be omitted).
+/// default port is 50051).
 /// @return kInvalidArgument for anything else
 [[nodiscard]] Result<ServerAddress> parse_server(std::string_view text);
 

@@ -91,19 +91,22 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
     case X509_V_OK:
       return {};
     case X509_V_ERR_CERT_HAS_EXPIRED:
-      return fmt::format("its TLS certificate expired on {}; ask its operator to renew it",
-                         expiry_of(certificate));
+      return fmt::format(
+          "the server's TLS certificate expired on {}; ask the server's operator to renew it",
+          expiry_of(certificate));
     case X509_V_ERR_CERT_NOT_YET_VALID:
-      return "its TLS certificate is not valid yet; check the clocks of both machines";
+      return "the server's TLS certificate is not valid yet; check the clocks of both machines";
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
       return fmt::format(
-          "its TLS certificate is not for the name {}; use a name in the certificate for --server, "
+          "the server's TLS certificate is not for the name {}; use a name in the certificate for "
+          "--server, "
           "or get a certificate for this name",
           address.host);
     default:
       return fmt::format(
-          "its TLS certificate is not signed by a trusted authority ({}); specify that authority's "
+          "the server's TLS certificate is not signed by a trusted authority ({}); specify that "
+          "authority's "
           "certificate with --ca FILE (HYDROPRINT_CA)",
           X509_verify_cert_error_string(verdict));
   }
@@ -133,7 +136,8 @@ class WithoutSigpipe {
 
 enum class Handshake { kTls, kOther, kUnknown };
 
-// Performs the TLS handshake without verifying the certificate.
+// Performs the TLS handshake, and completes it even if the certificate fails verification;
+// SSL_get_verify_result() then returns the reason.
 Handshake try_handshake(SSL& ssl, const ServerAddress& address, int socket) {
   X509_VERIFY_PARAM* const parameters = SSL_get0_param(&ssl);
   X509_VERIFY_PARAM_set_flags(parameters, X509_V_FLAG_PARTIAL_CHAIN);

@@ -12,7 +12,7 @@
 
 namespace hydroprint::client {
 
-/// Called with the number of bytes done and the total.
+/// Reports progress: the number of bytes transferred, and their total number.
 using ByteProgress = std::function<void(std::int64_t done_bytes, std::int64_t total_bytes)>;
 
 /// Reads a regular file, starting at byte `offset`, in pieces of at most 64 KiB until the end or
@@ -21,8 +21,8 @@ using ByteProgress = std::function<void(std::int64_t done_bytes, std::int64_t to
 [[nodiscard]] Status read_file(const std::filesystem::path& path, std::int64_t offset,
                                const std::function<bool(std::string_view bytes)>& take);
 
-/// Computes the hash of a file. Returns the errors of open_input_file(), and kCancelled when
-/// stopped.
+/// Computes the size and SHA-256 of a file. Returns the errors of open_input_file(), and kCancelled
+/// when stopped.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const std::stop_token& stop);
 

@@ -44,7 +44,7 @@ std::string_view unquote(std::string_view text) {
   return trim(text);
 }
 
-/// Splits off the first word.
+/// Returns the first word and the rest of the text.
 std::pair<std::string_view, std::string_view> word(std::string_view text) {
   text = trim(text);
   const auto end = text.find_first_of(" \t");
@@ -52,7 +52,7 @@ std::pair<std::string_view, std::string_view> word(std::string_view text) {
   return {text.substr(0, end), trim(text.substr(end))};
 }
 
-// Collects referenced files.
+// Collects the files that a model refers to.
 class Collector {
  public:
   explicit Collector(const std::filesystem::path& model)
@@ -62,8 +62,9 @@ class Collector {
     return folder_ / name;
   }
 
-  /// Returns the file that a reader of `from` would open for `name`: the name with either kind of
-  /// slash, or only its last part. Never a file outside the model's folder.
+  /// Returns the file that `name` refers to in the file `from`, relative to the model's folder.
+  /// Backslashes count as slashes. If there is no such file, tries only the last part of the name.
+  /// Never returns a file outside the model's folder.
   [[nodiscard]] std::optional<std::string> resolve(std::string_view name,
                                                    const std::string& from) const {
     const std::filesystem::path base = std::filesystem::path(from).parent_path();
@@ -82,8 +83,9 @@ class Collector {
     const auto found = resolve(name, from);
     if (!seen_.insert(found.value_or(std::string(name))).second) return;
     if (!found)
-      result_.notes.push_back(
-          fmt::format("{} refers to '{}', which is not in its folder; it is not sent", from, name));
+      result_.notes.push_back(fmt::format(
+          "{} refers to '{}', which was not found in the model's folder and is not uploaded", from,
+          name));
     else if (*found != model_name_)
       result_.files.push_back({*found, path_of(*found)});
   }
@@ -127,7 +129,7 @@ std::string_view skip_map_options(std::string_view rest) {
   }
 }
 
-/// @param name  of an existing material library, relative to the model's folder
+/// @param name  an existing material library, relative to the model's folder
 void follow_mtl(const std::string& name, Collector& collector) {
   const auto text = read_text(collector.path_of(name), kMaxMtlBytes);
   if (!text) return;  // the worker reports the error

@@ -49,7 +49,7 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
   }
   if (reply.empty()) {
     return fail(Code::kUnavailable, fmt::format("{}: no virtual rig responds there; use the path "
-                                                "that hydroprint-virtual-rig has as --control",
+                                                "of the --control flag of hydroprint-virtual-rig",
                                                 control.string()));
   }
   if (!reply.starts_with("error: ")) return reply;

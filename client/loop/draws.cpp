@@ -33,8 +33,8 @@ class Draws {
   std::mt19937 random_;
 };
 
-/// Returns the pose in the gripper: rotated, with its box centred below the gripper and its top at
-/// the gripper's lower end.
+/// Returns the object's pose in the gripper: rotated by `turn`, with its bounding box centred below
+/// the gripper and the top of the box at the gripper's lower end.
 Pose hung(const Body& body, const Eigen::Matrix3d& turn) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : body.points) box.extend(turn * p);

@@ -17,13 +17,13 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 struct Body {
   std::string name;              ///< name of the sample
   Eigen::Matrix3d nominal_turn;  ///< nominal orientation, F
-  /// a sphere: a scan cannot measure its rotation, so that stays nominal
+  /// whether it is a sphere, which keeps its nominal rotation because a scan cannot measure it
   bool is_round = false;
   std::vector<Eigen::Vector3d> points;  ///< vertices of its mesh, O
 };
 
-/// Creates the object "board" (held at 30 degrees, as in section 7.1) or "sphere80". Errors:
-/// kInvalidArgument for other names.
+/// Creates the object "board" (held at 30 degrees, as in section 7.1 of the paper) or "sphere80".
+/// Errors: kInvalidArgument for other names.
 [[nodiscard]] Result<Body> make_body(const std::string& name);
 
 /// Errors of a rig that its operator does not know, drawn uniformly within the limits of a
@@ -39,9 +39,9 @@ inline constexpr double kMostTilt_deg = 5;     ///< maximum tilt of the object
 inline constexpr double kMostShift_mm = 4;     ///< maximum shift of the object in each direction
 inline constexpr double kMostSlope_deg = 0.2;  ///< maximum deviation of the axis from vertical
 inline constexpr double kMostFilm_mm = 0.3;    ///< maximum displacement of the film
-inline constexpr double kMostScale = 0.001;    ///< deviation of the printer's scale from 1
+inline constexpr double kMostScale = 0.001;    ///< maximum deviation of the printer's scale from 1
 
-/// Draws the truth with number `index` for a seed; deterministic.
+/// Draws the errors for pose number `index`. The result depends only on the arguments.
 [[nodiscard]] Truth draw(const Body& body, std::uint32_t seed, int index);
 
 /// Returns the assumed pose before calibration: upright, with its bounding box centred.
@@ -51,7 +51,8 @@ inline constexpr double kMostScale = 0.001;    ///< deviation of the printer's s
 /// the height of the gripper's lower end above the water before the axis was lowered.
 [[nodiscard]] Pose pose_at_contact(const Body& body, const Truth& truth, double gripper_mm);
 
-/// Returns the height of the object's lowest point above the water, for that height of the gripper.
+/// Returns the height of the object's lowest point above the water if the gripper's lower end is at
+/// `gripper_mm`.
 [[nodiscard]] double height_mm(const Body& body, const Truth& truth, double gripper_mm);
 
 /// Returns the pose X_CB of the calibration board for capture number `index`. The poses are near

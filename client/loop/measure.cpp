@@ -18,7 +18,8 @@ bool is_cross(const Body& body, const Eigen::Vector3d& p) {
          is_whole(std::atan2(p.y(), p.x()) / (15 * kDegree));
 }
 
-/// Merges cross-points at the same place.
+/// Returns the indices of the vertices that are cross-points and have a film point, only one of
+/// those at the same place.
 std::vector<std::size_t> crosses(const Body& body, const SurfaceMap& plan) {
   std::vector<std::size_t> out;
   std::set<std::array<long, 3>> places;

@@ -15,8 +15,8 @@ using CrossErrors = std::vector<Eigen::Vector3d>;
 
 /// Computes the displacement of each cross-point (section 7.1). Board: lines 10 mm apart on the
 /// lower face. Sphere: meridians and parallels 15 degrees apart, down to the equator.
-/// @param plan   the dip from which the film image was made
-/// @param truth  the actual dip
+/// @param plan   result of the simulation from which the film image was made
+/// @param truth  result of the actual dip
 /// @param as     film placement and printer scale, which shift points on the film
 [[nodiscard]] CrossErrors cross_errors(const Body& body, const SurfaceMap& plan,
                                        const SurfaceMap& truth, const Truth& as);
@@ -46,7 +46,8 @@ struct Round {
   std::vector<std::string> pictures;  ///< files beside the report
 };
 
-/// Returns the limit for the 95th percentile over poses and cross-points, mm.
+/// Returns the limit for the 95th percentile of the placement error over poses and cross-points,
+/// mm.
 [[nodiscard]] double bound_mm(const Body& body);
 
 /// Concatenates the errors of all rounds.

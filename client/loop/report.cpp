@@ -66,7 +66,7 @@ Json round_json(const Round& round) {
   return out;
 }
 
-/// Share of the squared error, in whole percent.
+/// Returns the share of the squared error in whole percent.
 std::string share_text(const std::vector<Round>& rounds, const Stage& stage) {
   const double percent = 100 * share(rounds, stage.before, stage.errors);
   return fmt::format("{:.0f} %", std::round(percent) + 0.0);  // no -0
@@ -153,7 +153,7 @@ std::string report_html(const Report& report) {
       "<p>{}, seed {}, camera {}: calibrated with the camera, simulated, laid out for printing and "
       "dipped on the virtual rig. A computation then dips that film image at the true pose with "
       "the actual motion. 95 % of the {} cross-points land within <b>{:.2f} mm</b> of their "
-      "intended places (limit: {:.2f} mm); {} land nowhere.</p>\n"
+      "intended places (limit: {:.2f} mm); {} miss the object.</p>\n"
       "<p>{}</p>\n"
       "<h2>Sources of error</h2>\n{}"
       "<h2>Errors by pose</h2>\n<p>95th percentiles, mm.</p>\n{}"
@@ -169,8 +169,8 @@ std::string report_text(const Report& report) {
   for (const Stage& stage : kStages)
     shares.push_back(fmt::format("{} {}", stage.name, share_text(report.rounds, stage)));
   return fmt::format(
-      "{} of the {}: 95 % of {} cross-points land within {:.2f} mm (limit: {:.2f} mm), {} land "
-      "nowhere; shares of the squared error: {}\n",
+      "{} of the {}: 95 % of {} cross-points land within {:.2f} mm (limit: {:.2f} mm), {} miss "
+      "the object; shares of the squared error: {}\n",
       poses_of(report), report.object, all.size(), reached_mm(report), report.bound_mm, lost(all),
       fmt::join(shares, ", "));
 }

@@ -13,7 +13,7 @@ struct Report {
   std::string object;  ///< name of the sample
   double bound_mm = 0;
   std::uint32_t seed = 0;
-  std::string camera;  ///< calibration of the lens, or a file
+  std::string camera;  ///< name of the camera calibration, or its file
   std::vector<Round> rounds;
 };
 

@@ -10,7 +10,7 @@
 namespace hydroprint::loop {
 
 /// The parts of surface_map.ply that are needed here: the object's points (O), their film points
-/// (NaN: none) and times, and the triangles between them.
+/// (NaN: none) and contact times, and the triangles between them.
 struct SurfaceMap {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> film_mm;

@@ -6,7 +6,8 @@ The build generates the stubs (target hydroprint_python):
     PYTHONPATH=build/release/python client/python/rig.py --stop
 
 HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate
-of a private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
+of a private authority. HYDROPRINT_API_KEY is a key from `hydroprint keys add`; without it, the key that
+`hydroprint login` stored is used.
 """
 
 import argparse

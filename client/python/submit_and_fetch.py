@@ -7,7 +7,8 @@ The build generates the stubs (target hydroprint_python):
         --mesh globe.obj --texture globe.png --out result
 
 HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate
-of a private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
+of a private authority. HYDROPRINT_API_KEY is a key from `hydroprint keys add`; without it, the key that
+`hydroprint login` stored is used.
 """
 
 import argparse
@@ -31,7 +32,7 @@ CHUNK_BYTES = 64 * 1024
 
 
 def upload(channel, path):
-    """Uploads a file unless the daemon has its bytes; returns it as a job input."""
+    """Uploads a file unless the daemon already has its bytes; returns it as a job input."""
     assets = asset_service_pb2_grpc.AssetServiceStub(channel)
     with open(path, "rb") as file:
         content = file.read()
@@ -94,8 +95,8 @@ def main():
     """Runs the example."""
     parser = argparse.ArgumentParser(description="Submit a simulation and fetch its film image.")
     parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
-    parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB, without other files")
-    parser.add_argument("--texture", help="PNG, JPEG or TIFF")
+    parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB that refers to no other files")
+    parser.add_argument("--texture", help="texture of the mesh: PNG, JPEG or TIFF")
     parser.add_argument("--dpi", type=float, help="resolution of the film image")
     parser.add_argument("--out", default=".", help="folder for film.png")
     arguments = parser.parse_args()

@@ -1,5 +1,5 @@
-// Accuracy of poses from depth frames with all camera errors, and of their stated covariance.
-// bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
+// Measures the accuracy of poses from depth frames with all camera errors, and checks their stated
+// covariance. bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -151,7 +151,8 @@ Json json_of(const Figures& f) {
           {"seconds", p95(f.seconds)}};
 }
 
-/// Directions of a twist in mm of surface motion; the columns are those that the scan determines.
+/// Returns a basis (columns) of the twists that the scan determines. `scale` converts a twist to mm
+/// of surface motion.
 Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6& scale) {
   const auto weak = static_cast<Eigen::Index>(fit.weak.size());
   Eigen::MatrixXd all(6, weak + 6);
@@ -214,8 +215,8 @@ Scene draw_scene(const Body& body, const Camera& camera, std::mt19937& random) {
   return out;
 }
 
-/// RMS error of the film coordinates of points that this camera sees around the film. It is what
-/// remains of the errors of film frame and lens, which are strongly correlated.
+/// Returns the RMS error of the film coordinates of points that this camera sees around the film.
+/// The errors of film frame and lens, which are strongly correlated, partly cancel in it.
 double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF) {
   const scan::Lens truth = testing::lens_of(camera.truth);
   double squares = 0, count = 0;
@@ -234,7 +235,7 @@ double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF)
   return std::sqrt(squares / count);
 }
 
-/// Runs the calibration on frames; has no values if it is refused.
+/// The result of a calibration from frames; without values if it is refused.
 struct Outcome {
   std::optional<registration::FilmFrame> frame;
   std::optional<registration::ObjectPose> pose;

@@ -127,7 +127,8 @@ json Bench::look_until(const std::function<bool(double)>& speed_is) {
   }
 }
 
-/// Time from the call to the start of the motion, computed from the observed speed: v = a t.
+/// Returns the time from the call to the start of the motion, computed with v = a t from the
+/// observed speed.
 double Bench::command_to_motion(double target_mm) {
   const double before_s = time_of(drive_.truth());
   grpc::Status sent;
@@ -138,7 +139,7 @@ double Bench::command_to_motion(double target_mm) {
   return time_of(moving) - speed_of(moving) / acceleration_ - before_s;
 }
 
-/// Time from the call to standstill, minus the braking time.
+/// Returns the time from the call to standstill, minus the braking time.
 double Bench::stop_to_standstill() {
   look_until([](double speed) { return speed == kSpeed_mm_per_s; });
   const double before_s = time_of(drive_.truth());

@@ -36,7 +36,8 @@ struct Body {
   pipeline::DipOptions options;
 };
 
-/// Rotated about the x axis, with the bounding box centred on the film.
+/// Returns the pose in which the model is rotated about the x axis and its bounding box is centred
+/// on the film.
 Pose tilted(const mesh::Model& model, double angle_rad) {
   Pose X_FO(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX()));
   Eigen::AlignedBox3d box;
@@ -45,7 +46,7 @@ Pose tilted(const mesh::Model& model, double angle_rad) {
   return X_FO;
 }
 
-/// The off-centre sphere, or a sample on A4; the board is tilted by 30 degrees.
+/// Returns the off-centre sphere, or a sample on A4; the board is tilted by 30 degrees.
 Body body_named(const std::string& name) {
   Body body;
   if (name == "sphere") {

@@ -1,5 +1,5 @@
-// A camera with all its errors, moved by hand for 10 s: measures the drift of its position and the
-// error of the fused surface. bench_sweep [CAMERAS [FRAMES]]: defaults 3 and 300.
+// Measures the drift of the position of a camera with all its errors, moved by hand for 10 s, and
+// the error of the fused surface. bench_sweep [CAMERAS [FRAMES]]: defaults 3 and 300.
 #include <sys/resource.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/** Debian's Chromium, and users of it. */
+/** Starts Debian's Chromium and opens browser contexts for users in it. */
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
 
 export const launch = (): Promise<Browser> =>

@@ -10,7 +10,10 @@ const kScreens = join(root, 'build/tests/screens');
 const kWidths = [390, 1280];
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/** Saves a screenshot at both widths. Called directly for states that pass too quickly for `look`. */
+/**
+ * Saves a screenshot at the width of a phone and of a desktop. Called directly for states that pass too quickly for
+ * `look`.
+ */
 export async function picture({ page }: Person, name: string): Promise<void> {
   mkdirSync(kScreens, { recursive: true });
   const before = page.viewportSize()!;
@@ -66,7 +69,7 @@ async function isAccessible({ page }: Person, name: string): Promise<void> {
   }
 }
 
-/** Takes screenshots at both widths and checks accessibility in light and dark colours. */
+/** Takes screenshots as picture() does, and checks accessibility in light and dark colours. */
 export async function look(person: Person, name: string): Promise<void> {
   await picture(person, name);
   await isAccessible(person, name);

@@ -211,7 +211,7 @@ test('the first admin adds users; a viewer can stop the rig and change nothing e
 
   const viewer = await visit(browser, daemon.address, 390);
   await signIn(viewer.page, 'vera');
-  await viewer.page.getByText('You can view this page but not submit').waitFor();
+  await viewer.page.getByText('You can view this page but not submit jobs').waitFor();
   await open(viewer, '/rig');
   await viewer.page.getByText('You can view the rig and stop it').waitFor();
   expect(await viewer.page.getByRole('button', { name: 'Take control' }).count()).toBe(0);

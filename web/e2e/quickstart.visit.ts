@@ -1,6 +1,6 @@
 /**
- * A first visit through the one-time link that deploy/quickstart --keep prints (HYDROPRINT_LINK). It views jobs of the
- * loop whose kinds cannot be started on the pages.
+ * A first visit through the one-time link that deploy/quickstart --keep prints (HYDROPRINT_LINK). The visit views the
+ * jobs of `hydroprint loop`, some of which cannot be started on the pages.
  */
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';

@@ -42,7 +42,7 @@ async function takeReady(page: Page): Promise<void> {
   await becomesReady(page);
 }
 
-/** Types into a field key by key and leaves it, because "30" on the way to "300" is in range. */
+/** Types into a field key by key, because the start of a number may be valid ("30" of "300"), and leaves the field. */
 async function type(page: Page, label: string, text: string): Promise<void> {
   const field = page.getByLabel(label);
   await field.fill('');

@@ -139,8 +139,8 @@ function ConnectionBanner() {
   if (!who.value || link.value !== 'lost') return null;
   return (
     <p class="banner" role="status">
-      The connection to the daemon is lost; trying again. This page may be out of date. Stop is
-      still sent, but if it fails, press the stop button on the rig.
+      The connection to the daemon is lost; trying again. This page may be out of date. The Stop
+      button may still work; if it fails, press the stop button on the rig.
     </p>
   );
 }

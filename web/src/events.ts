@@ -27,7 +27,7 @@ export function on(topic: string, listener: Listener): () => void {
 const kTopics = ['job', 'rig', 'queue'];
 const kFirstWait_ms = 500;
 const kLongestWait_ms = 10_000;
-// The daemon sends the rig's state at least every 2 s. After this much silence, the connection is dead.
+// The daemon sends the rig's state at least every 2 s. After 12 s without a message, the connection is considered dead.
 const kSilence_ms = 12_000;
 
 let source: EventSource | undefined;

@@ -19,11 +19,12 @@ namespace {
 
 struct AdminOptions {
   std::string state_dir, file, user;
-  bool from_stdin = false;  // not read: hydroprintd reads standard input in either case
+  bool from_stdin = false;  // no effect: input that is not a terminal is read in any case
   bool replace = false;
 };
 
-// Returns the daemon's program: next to this program, otherwise from PATH.
+// Returns the path of hydroprintd if it is next to this program; otherwise its name, which is
+// searched in PATH.
 std::string daemon_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -72,7 +73,7 @@ Status link(const AdminOptions& options) {
 // neither on a command line nor in a file.
 Status reset_password(const AdminOptions& options) {
   HP_ASSIGN_OR_RETURN(const std::string password, ask_new_password());
-  constexpr std::size_t kLongestPassword = 1000;  // a pipe buffers this much in one write
+  constexpr std::size_t kLongestPassword = 1000;  // bytes; a pipe accepts them in one write
   if (password.size() > kLongestPassword) {
     return fail(Code::kInvalidArgument,
                 "the password has more than 1000 bytes; choose a shorter one");

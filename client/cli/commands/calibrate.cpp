@@ -68,7 +68,7 @@ Result<v1::Job> make_job(Program& program, const CalibrateOptions& options) {
   return job;
 }
 
-/// Follows the job, then prints its result.
+/// Follows the job, then prints its calibration.
 Status finish(Program& program, const v1::Job& job, const FinishOptions& options) {
   HP_RETURN_IF_ERROR(finish_job(program, job, options));
   if (options.no_wait || program.json()) return {};
@@ -104,17 +104,18 @@ void add_name(CLI::App& command, client::JobOptions& job) {
 }
 
 constexpr char kCalibrateFooter[] =
-    "Captures frames, unless some are given, and finds the pose of the object over the film in\n"
-    "them. The result is stored as a calibration and becomes active. 'hydroprint submit simulate\n"
-    "--calibration active' and 'hydroprint dip' use it. It stays valid until the axis moves.\n\n"
+    "Captures frames, unless --capture-job or --frames is given, and computes the object's pose\n"
+    "over the film from them. The result is stored as a calibration and becomes active.\n"
+    "'hydroprint submit simulate --calibration active' and 'hydroprint dip' use it. It stays\n"
+    "valid until the axis moves.\n\n"
     "Examples:\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --out held\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --capture-job 5 --camera 2";
 
 constexpr char kCameraFooter[] =
     "Each view needs 1 s of frames of the calibration board. Hold the board still, fully in view\n"
-    "and 30 mm in front of the background. Take twelve views: tilted each way by 30 degrees, near\n"
-    "and far, and out to the corners.\n\n"
+    "and 30 mm in front of the background. Take twelve views: with the board tilted by 30 degrees\n"
+    "in each direction, near and far, and in the corners of the picture.\n\n"
     "Examples:\n"
     "  hydroprint capture --seconds 1     # once for each view\n"
     "  hydroprint calibrate-camera --capture-jobs 1 2 3 4 5 6 7 8 9 10 11 12";
@@ -153,9 +154,10 @@ void add_calibrate(CLI::App& app, Program& program) {
 void add_calibrate_camera(CLI::App& app, Program& program) {
   auto options = std::make_shared<CameraOptions>();
   CLI::App* command = app.add_subcommand(
-      "calibrate-camera", "Calibrate the camera's lens and depth scale from views of the board");
+      "calibrate-camera",
+      "Calibrate the camera's lens and depth scale from views of the calibration board");
   auto* jobs = command->add_option("--capture-jobs", options->capture_jobs,
-                                   "The captures, one for each view");
+                                   "The capture jobs, one for each view: jobs/7, or 7");
   jobs->type_name("JOB");
   command
       ->add_option("--frames", options->frames,

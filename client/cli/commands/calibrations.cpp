@@ -103,7 +103,7 @@ CLI::App* add_named(CLI::App& parent, Program& program, const char* verb, const 
 void add_listing(CLI::App& parent, Program& program) {
   auto limit = std::make_shared<int>(50);
   CLI::App* command = parent.add_subcommand("list", "List calibrations, newest first");
-  command->add_option("--limit", *limit, "Maximum number")
+  command->add_option("--limit", *limit, "Maximum number of calibrations")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -113,10 +113,11 @@ void add_listing(CLI::App& parent, Program& program) {
 void add_enter(CLI::App& parent, Program& program) {
   auto options = std::make_shared<EnterOptions>();
   CLI::App* command = parent.add_subcommand("enter", "Enter a pose by hand, without a camera");
-  command->add_option("--mesh", options->mesh, "The object")->type_name("FILE")->required();
+  command->add_option("--mesh", options->mesh, "Mesh of the object")->type_name("FILE")->required();
   command
-      ->add_option("--pose", options->pose,
-                   R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]})")
+      ->add_option(
+          "--pose", options->pose,
+          R"(JSON file with the pose: {"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]})")
       ->type_name("FILE")
       ->required();
   v1::Calibration& entered = options->entered;
@@ -138,7 +139,7 @@ void add_calibrations(CLI::App& app, Program& program) {
   command->require_subcommand(1);
   add_listing(*command, program);
   add_named(*command, program, "show", "Show the details of a calibration", show);
-  add_named(*command, program, "activate", "Make it the default of its kind", activate);
+  add_named(*command, program, "activate", "Make a calibration the default of its kind", activate);
   add_named(*command, program, "delete", "Delete a calibration; its job is kept", remove);
   add_enter(*command, program);
 }

@@ -48,7 +48,7 @@ void add_camera(CLI::App& app, Program& program) {
                    "Write the picture to a PNG file, or - for standard output; nearer is brighter")
       ->type_name("FILE");
   command->footer(
-      "The camera runs while pictures are requested, and a little longer. A capture has "
+      "The camera runs while pictures are requested, and for 10 s after that. A capture has "
       "priority.\n\n"
       "Example:\n"
       "  hydroprint camera --out depth.png");

@@ -64,7 +64,8 @@ void walk(const CLI::App& app, Command command, std::vector<Command>& commands) 
     command.takes_file = command.takes_file || is_path(option->get_type_name());
   }
   Command below{command.path, {}, {}, command.flags, false, {}};
-  std::erase_if(below.flags, [](const Flag& flag) {  // every command has its own
+  std::erase_if(below.flags, [](const Flag& flag) {  // not inherited: --help is defined for every
+                                                     // command, --version only for hydroprint
     return flag.names.back() == "--help" || flag.names.back() == "--version";
   });
   const auto children = app.get_subcommands([](const CLI::App*) { return true; });
@@ -95,7 +96,8 @@ std::string all_words(const Command& command) {
   return join(words);
 }
 
-// Shell cases "PATH FLAG" for flags that take a value: files, choices, or no suggestions.
+// Returns the shell's case branches for the values of flags. Each matches "PATH FLAG" and suggests
+// files, choices or nothing.
 std::string value_cases(const Command& command, const std::string& files,
                         const std::string& before_choices, const std::string& after_choices) {
   std::string text;
@@ -110,8 +112,8 @@ std::string value_cases(const Command& command, const std::string& files,
   return text;
 }
 
-// Shell function that joins the command words so far, for example "hydroprint submit simulate";
-// flags and their values are skipped.
+// Returns a shell function that joins the command words so far, for example "hydroprint submit
+// simulate"; flags and their values are skipped.
 std::string path_function(const std::vector<Command>& commands, const char* name) {
   std::string cases;
   for (const Command& command : commands)

@@ -40,8 +40,8 @@ void add_confirm(CLI::App& app, Program& program) {
       ->transform(CLI::IsMember(client::operator_steps(), CLI::ignore_case));
   add_lease_flag(*command, options->with_lease);
   command->footer(
-      "Needs the current lease, which may be newer than that of the dip. 'hydroprint show JOB'\n"
-      "shows the step. Confirming a step again has no effect.\n\n"
+      "Needs the current lease, which may be newer than the one that created the dip.\n"
+      "'hydroprint show JOB' shows the step. Confirming a step again has no effect.\n\n"
       "Example:\n"
       "  hydroprint confirm 8 LAY_FILM");
   program.on(*command, [&program, options] { return confirm(program, *options); });

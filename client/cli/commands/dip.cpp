@@ -42,7 +42,7 @@ Status check_terminal(const DipOptions& options) {
               "confirm JOB STEP' for each step, or --yes-to-all on the virtual rig");
 }
 
-// On Ctrl-C the daemon aborts the dip; waits until it has.
+// Cancels the dip after Ctrl-C, and waits until the daemon has aborted it.
 Result<v1::Job> abort_dip(const Program& program, const std::string& job) {
   client::Connection daemon = program.uninterrupted();
   HP_RETURN_IF_ERROR(client::cancel_job(daemon, job));
@@ -58,7 +58,7 @@ Result<v1::Job> follow(Program& program, const HeldLease& lease, const v1::Job& 
 Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::Job& job) {
   auto ended = follow(program, lease, job);
   if (ended || ended.error().code != Code::kCancelled) return ended;
-  if (!program.is_interrupted()) return ended;  // the terminal was closed
+  if (!program.is_interrupted()) return ended;  // the terminal was closed, and the dip continues
   std::cerr << "aborting " << job.name() << std::endl;
   return abort_dip(program, job.name());
 }
@@ -107,14 +107,12 @@ Status dip(Program& program, const DipOptions& options) {
 }
 
 constexpr char kDipFooter[] =
-    "Needs an armed and homed rig. Acquires the lease ('hydroprint rig lease') unless you have it, "
-    "and\n"
-    "keeps it during the dip. On a terminal it shows each step, the instruction and the timer;\n"
-    "Enter confirms a step. To find first contact, hold Down or j, Up or k (see\n"
-    "'hydroprint rig jog --help'). Ctrl-C aborts the dip and prints what to do with film and "
-    "object.\n"
-    "If this program is lost, the dip continues; resume with 'hydroprint watch JOB' and\n"
-    "'hydroprint confirm JOB STEP'.\n\n"
+    "Needs an armed and homed rig. Acquires the lease ('hydroprint rig lease') unless you\n"
+    "have it, and keeps it during the dip. On a terminal, this command shows each step with\n"
+    "its instruction and timer; Enter confirms a step. To find first contact, hold Down or j\n"
+    "to go down, Up or k to go up (see 'hydroprint rig jog --help'). Ctrl-C aborts the dip\n"
+    "and prints what to do with film and object. If this command ends unexpectedly, the dip\n"
+    "continues; resume with 'hydroprint watch JOB' and 'hydroprint confirm JOB STEP'.\n\n"
     "Examples:\n"
     "  hydroprint dip --simulate-job 7 --water-temperature-c 24 --out record\n"
     "  hydroprint dip --depth-mm 20 --yes-to-all\n"

@@ -26,7 +26,7 @@ std::string default_folder(const std::string& job) {
   return "job-" + job.substr(job.find('/') + 1);
 }
 
-// A new folder under /tmp that is deleted at the end.
+// A new temporary folder, which the destructor deletes.
 class ScratchFolder {
  public:
   ScratchFolder() { ::mkdtemp(path_.data()); }

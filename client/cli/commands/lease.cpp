@@ -39,10 +39,11 @@ void print_result(const Program& program, const v1::Lease& lease) {
 // Returns the lease id stored for this daemon.
 Result<std::string> our_lease(const Program& program) {
   if (auto kept = kept_lease(program.server())) return *kept;
-  return fail(Code::kFailedPrecondition,
-              lease_file(program.server()).string() +
-                  ": no lease is stored there; acquire one: hydroprint rig lease acquire",
-              "LEASE_REQUIRED");
+  return fail(
+      Code::kFailedPrecondition,
+      lease_file(program.server()).string() +
+          ": no lease is stored there; acquire one: hydroprint rig lease acquire --purpose ...",
+      "LEASE_REQUIRED");
 }
 
 Status show_lease(Program& program) {
@@ -120,7 +121,9 @@ void add_renew(CLI::App& parent, Program& program) {
 void add_break(CLI::App& parent, Program& program) {
   auto options = std::make_shared<LeaseOptions>();
   CLI::App* command = parent.add_subcommand("break", "Take the lease away from its holder");
-  command->add_option("--reason", options->reason, "Reason; the daemon logs it with both names")
+  command
+      ->add_option("--reason", options->reason,
+                   "Reason; the daemon logs it with your name and the holder's")
       ->type_name("TEXT")
       ->required();
   command->footer("A jog ends; a dip continues. Ask first: somebody may be working at the rig.");

@@ -69,7 +69,7 @@ void add_list(CLI::App& app, Program& program) {
                     "Only your jobs; without user accounts, those of --owner");
   command->add_option("--owner", options->filter.owner, "Only jobs of this owner")
       ->type_name("NAME");
-  command->add_option("--limit", options->filter.limit, "Maximum number")
+  command->add_option("--limit", options->filter.limit, "Maximum number of jobs")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

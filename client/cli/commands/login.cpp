@@ -130,11 +130,10 @@ Status log_out(const Program& program) {
   client::Connection connection(program.options_as(key, ""));
   const Status ended = client::delete_api_key(connection, name_of_key(key));
   if (!ended && ended.error().code != Code::kUnauthenticated) {
-    return fail(
-        ended.error().code,
-        fmt::format(
-            "the stored key was deleted, but it is still valid: {}; delete it: hydroprint keys",
-            ended.error().message));
+    return fail(ended.error().code,
+                fmt::format("the key was deleted here, but it is still valid at the daemon: {}; "
+                            "log in and delete it with 'hydroprint keys delete'",
+                            ended.error().message));
   }
   if (program.json()) print({{"loggedOut", program.server()}});
   if (!program.json()) std::cout << "logged out of " << program.server() << std::endl;
@@ -148,7 +147,9 @@ void add_login(CLI::App& app, Program& program) {
   CLI::App* login = app.add_subcommand(
       "login",
       "Create an API key with a password or sign-in link, or use an existing key, and store it");
-  login->add_option("--user", options->user, "Your user name; default: asks for it")
+  login
+      ->add_option("--user", options->user,
+                   "Your user name; the command asks for it if it is omitted")
       ->type_name("NAME");
   auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,
                               "Read an API key from standard input");

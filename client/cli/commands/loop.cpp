@@ -24,8 +24,9 @@ namespace {
 Status make_ready(Program& program, const HeldLease& lease) {
   HP_ASSIGN_OR_RETURN(v1::Rig rig, client::get_rig(program.daemon()));
   if (!rig.axis().is_virtual())
-    return fail(Code::kFailedPrecondition,
-                "the loop needs hydroprint-virtual-rig; start the daemon with one");
+    return fail(
+        Code::kFailedPrecondition,
+        "the loop needs a virtual rig; start hydroprint-virtual-rig and connect the daemon to it");
   if (rig.state() == v1::Rig::FAULT) {
     HP_ASSIGN_OR_RETURN(rig, client::reset_rig(program.daemon(), lease.id()));
   }
@@ -69,8 +70,7 @@ constexpr char kLoopFooter[] =
     "and dips on the rig. A computation then dips that film image at the true pose, with errors "
     "of\n"
     "axis, film and printer, and measures where the picture's cross-points land.\n"
-    "The rig's --scene must have a [camera], and its water must be far enough below for the "
-    "object.\n\n"
+    "The rig's --scene must have a [camera], and enough space above the water for the object.\n\n"
     "Example:\n"
     "  hydroprint loop --object board --control /tmp/rig --poses 10 --out loop";
 

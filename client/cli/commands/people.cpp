@@ -33,7 +33,7 @@ std::string in_collection(const std::string& collection, const std::string& text
 
 std::string bare(const std::string& name) { return printable(name.substr(name.find('/') + 1)); }
 
-// Returns the role of a name; ROLE_UNSPECIFIED for an empty name.
+// Returns the role with this name; ROLE_UNSPECIFIED if the name is empty.
 v1::Role role_of(const std::string& name) {
   v1::Role role = v1::ROLE_UNSPECIFIED;
   v1::Role_Parse(name, &role);
@@ -68,7 +68,7 @@ Status list_people(Program& program) {
   return {};
 }
 
-// Returns the address of the web page is not that of the gRPC endpoint and is not known here.
+// The address of the web page is not known here: it differs from that of the gRPC endpoint.
 Status show_link(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const auto link, client::create_sign_in_link(program.daemon(), name));
   if (program.json()) {
@@ -236,7 +236,7 @@ void add_users(CLI::App& app, Program& program) {
   add->add_flag("--password", options->with_password,
                 "Ask for a password; otherwise use 'users link' or 'users password'");
   add->add_flag("--returns", options->returns,
-                "This person had the name before and gets its jobs and files back");
+                "This person is the deleted user of that name and gets the jobs and files back");
   add->footer("Example:\n  hydroprint users add ann --role ADMIN --password");
   program.on(*add, [&program, options] { return add_user(program, *options); });
 
@@ -306,7 +306,7 @@ void add_audit(CLI::App& app, Program& program) {
   command->add_option("--who", options->who, "Only entries of this user")->type_name("NAME");
   command->add_option("--what", options->what, "Only methods whose names start with this")
       ->type_name("TEXT");
-  command->add_option("--limit", options->limit, "Maximum number")
+  command->add_option("--limit", options->limit, "Maximum number of entries")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

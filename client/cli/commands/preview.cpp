@@ -47,7 +47,7 @@ void add_preview(CLI::App& app, Program& program) {
                  {"mesh", "scale", "pose", "film", "profile", "depth_mm", "dip_speed_mm_per_s"});
   command->footer(
       "Uses Stokes flow on a coarse film; creates no job. The daemon keeps the mesh in memory for "
-      "the next one.\n\n"
+      "the next preview.\n\n"
       "Example:\n"
       "  hydroprint preview --mesh mug.obj --scale 10 --pose pose.json --film A3");
   program.on(*command, [&program, options] { return preview(program, *options); });

@@ -59,15 +59,14 @@ void add_print(CLI::App& app, Program& program) {
       ->type_name("TEXT");
   command->add_option("--out", options->out, "Download the print's record into this folder")
       ->type_name("DIR");
-  command->add_flag("--no-wait", options->no_wait, "Do not wait until it is finished");
+  command->add_flag("--no-wait", options->no_wait, "Do not wait until the print is finished");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but print nothing");
   add_wait_flags(*command, options->wait);
   command->footer(
-      "Exits with 0 only if the printer reports that the print is complete. Until then it shows "
-      "the\n"
-      "printer's messages (out of paper, ...) and warns of anything that may change the scale.\n"
-      "Measure the rulers on the page: 200 mm. Nothing is sent twice: after an error, check the\n"
-      "printer before you print again.\n\n"
+      "Exits with 0 only if the printer reports that the print is complete. Until then, this\n"
+      "command shows the printer's messages (out of paper, ...) and warns of anything that may\n"
+      "change the scale. Measure the rulers on the page: 200 mm. Nothing is sent twice: after an\n"
+      "error, check the printer before you print again.\n\n"
       "Example:\n"
       "  hydroprint submit print-image --simulate-job 7 --wait\n"
       "  hydroprint print 8");

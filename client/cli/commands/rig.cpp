@@ -90,8 +90,8 @@ void add_rig_watch(CLI::App& parent, Program& program) {
       ->check(field_range("WatchRigRequest.max_rate_hz"))
       ->capture_default_str();
   command->footer(
-      "Updates one line on a terminal. Elsewhere it prints a line for each change, with --json as "
-      "JSON.");
+      "Updates one line on a terminal. Elsewhere it prints a line for each change, as JSON with "
+      "--json.");
   program.on(*command, [&program, rate_hz] { return watch(program, *rate_hz); });
 }
 
@@ -106,7 +106,7 @@ void add_order(CLI::App& parent, Program& program, const char* name, const char*
 
 void add_wait_flag(CLI::App& command, CommandOptions& options) {
   command.add_flag("--no-wait", options.no_wait,
-                   "Return once the axis moves; Ctrl-C does not stop it then");
+                   "Return once the axis moves; Ctrl-C then no longer stops it");
   add_lease_flag(command, options.with_lease);
 }
 
@@ -115,7 +115,7 @@ void add_home(CLI::App& parent, Program& program) {
   CLI::App* command = parent.add_subcommand("home", "Home the axis");
   add_wait_flag(*command, *options);
   command->footer(std::string(kLeaseFooter) +
-                  "Waits until the motion ends; Ctrl-C stops the axis. Exit status 0 only if the "
+                  "Waits until the motion ends; Ctrl-C stops the axis. Exits with 0 only if the "
                   "axis is homed.\n\n"
                   "Example:\n"
                   "  hydroprint rig home --with-lease 'setting up'");
@@ -132,8 +132,8 @@ void add_rig_move(CLI::App& parent, Program& program) {
   command->add_option("--speed", options->speed_mm_per_s, "Speed; default 5")->type_name("MM/S");
   add_wait_flag(*command, *options);
   command->footer(std::string(kLeaseFooter) +
-                  "Waits until the motion ends; Ctrl-C stops the axis. Exit status 0 only if it "
-                  "arrived.\n\n"
+                  "Waits until the motion ends; Ctrl-C stops the axis. Exits with 0 only if "
+                  "the axis arrived.\n\n"
                   "Example:\n"
                   "  hydroprint rig move 120 --speed 8");
   program.on(*command, [&program, options] {
@@ -192,7 +192,8 @@ void add_rig(CLI::App& app, Program& program) {
   add_rig_move(*command, program);
   add_jog(*command, program);
   add_stop(*command, program);
-  add_order(*command, program, "reset", "Clear the alarm after a fault or the stop button",
+  add_order(*command, program, "reset",
+            "Clear the alarm after a fault, or after the stop button was pressed",
             "Starts no motion. Arm and home the axis afterwards.", client::reset_rig);
   add_lease(*command, program);
   command->footer(

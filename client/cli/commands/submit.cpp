@@ -53,7 +53,7 @@ Status submit(Program& program, const JobFlags& options) {
   return finish_job(program, job, {options.out, !waits, options.wait_options});
 }
 
-/// Kinds with commands of their own.
+/// Job kinds that have commands of their own instead of `submit KIND`.
 constexpr std::array<std::string_view, 5> kOwnCommands = {"dip", "print", "capture", "calibrate",
                                                           "calibrate_camera"};
 

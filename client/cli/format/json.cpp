@@ -14,7 +14,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-// Messages of the API contain no Any, so they always have a JSON form.
+// Messages of the API contain no google.protobuf.Any, so they always have a JSON form.
 std::string json_text(const pb::Message& message) {
   const auto text = write_json(message);
   HP_CHECK(text.has_value());
@@ -71,7 +71,7 @@ void print_tree(const Json& json, const std::string& indent) {
 }
 
 void print(const Json& json) {
-  // File names need not be UTF-8.
+  // File names are not always UTF-8; invalid bytes are replaced.
   std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Returns the fault after two spaces; the alarm's own text if the daemon reports no fault.
+// Returns two spaces and the fault. If the daemon reports no fault: the cause and the drive's
+// alarm, if there are any.
 std::string trouble(const v1::Rig& rig) {
   if (!rig.trouble().empty()) return "  " + printable(rig.trouble());
   std::string text = rig.cause().empty() ? "" : "  " + rig.cause();

@@ -12,7 +12,7 @@ namespace hydroprint::cli {
 /// 2400 dots per inch; default 300)".
 [[nodiscard]] std::string field_help(const std::string& field);
 
-/// Accepts numbers in the field's range.
+/// Returns a validator that accepts numbers in the field's range.
 [[nodiscard]] CLI::Validator field_range(const std::string& field);
 
 }  // namespace hydroprint::cli

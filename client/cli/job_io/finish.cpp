@@ -10,7 +10,7 @@ namespace hydroprint::cli {
 void add_finish_flags(CLI::App& command, FinishOptions& options) {
   command.add_option("--out", options.out, "Download the artifacts into this folder")
       ->type_name("DIR");
-  command.add_flag("--no-wait", options.no_wait, "Do not wait until it is finished")
+  command.add_flag("--no-wait", options.no_wait, "Do not wait until the job is finished")
       ->excludes("--out");
   add_wait_flags(command, options.wait);
 }

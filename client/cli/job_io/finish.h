@@ -24,7 +24,8 @@ void tell_created(const Program& program, const v1::Job& job);
 /// Reports that a job passed --validate-only.
 void tell_valid(const Program& program, const v1::Job& job);
 
-/// Prints a job's name, waits until it is finished, and downloads its artifacts.
+/// Prints a job's name, waits until it is finished, and downloads its artifacts, as the options
+/// say.
 [[nodiscard]] Status finish_job(Program& program, const v1::Job& job, const FinishOptions& options);
 
 }  // namespace hydroprint::cli

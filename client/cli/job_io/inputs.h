@@ -31,7 +31,8 @@ class Inputs {
   [[nodiscard]] Status add_to(google::protobuf::Message& spec, const std::string& field,
                               const std::filesystem::path& file);
 
-  /// Adds folders written by hydroprint-capture, each under its own name: "view1/frames.json", ...
+  /// Adds the files of folders written by hydroprint-capture: those of the first folder as
+  /// "view1/frames.json", ...
   [[nodiscard]] Result<std::vector<v1::InputFile>> add_frames(
       const std::vector<std::filesystem::path>& folders);
 

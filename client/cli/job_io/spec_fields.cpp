@@ -30,7 +30,8 @@ std::string resource_of(const pb::FieldDescriptor& field) {
   return rules == nullptr ? std::string() : rules->resource();
 }
 
-// The text of a flag as the field takes it: names of jobs and calibrations are completed.
+// Returns the value of a field for the text of its flag: completes names of jobs and calibrations
+// ("7" becomes "jobs/7").
 std::string completed(const pb::FieldDescriptor& field, const std::string& text) {
   const std::string resource = resource_of(field);
   if (resource == "jobs") return job_name(text);

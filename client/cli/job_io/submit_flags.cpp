@@ -21,7 +21,7 @@ const v1::FieldRules& rules_of(const FieldDescriptor& field) {
 
 bool is_film(const FieldDescriptor& field) { return rules_of(field).format() == "film"; }
 
-// Lists of files have none: they are found by the references in other files.
+// Lists of files have no flag: their files are found through the references in other files.
 bool has_flag(const FieldDescriptor& field) {
   return !field.is_repeated() || field.message_type() == nullptr;
 }
@@ -76,8 +76,9 @@ Status take_file(const FieldDescriptor& field, const std::string& text, Inputs& 
   return {};
 }
 
-// A pose is read before anything is uploaded. The mesh, whose files keep their names, comes next;
-// it has the lowest number.
+// Returns the position of a file in the order of reading and uploading. A pose comes first, so that
+// an error in it is reported before anything is uploaded. The mesh, which has the lowest field
+// number, comes next, because its files keep their names.
 int upload_order(const FieldDescriptor& field) {
   return field.message_type() == v1::Pose::descriptor() ? 0 : field.number();
 }

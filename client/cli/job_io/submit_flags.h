@@ -13,13 +13,13 @@ namespace hydroprint::cli {
 /// The flags of `submit KIND` and `preview`.
 struct SubmitOptions {
   v1::Job job;  ///< flags that need no file are stored in its spec directly
-  /// Fields whose flags name files, which are read and uploaded after the parsing, and the flags'
-  /// texts.
+  /// Fields whose flags name files, each with the text of its flag. The files are read and uploaded
+  /// after the parsing.
   std::vector<std::pair<const google::protobuf::FieldDescriptor*, std::string>> files;
 };
 
-/// Adds a flag for each field of the spec of options.job, or for the named ones. They are required
-/// and exclude each other as their rules say (proto/rules).
+/// Adds a flag for each field of the spec of options.job, or only for the fields named in `only`.
+/// The rules of the fields (proto/rules) state which flags are required or exclude each other.
 void add_spec_flags(CLI::App& command, SubmitOptions& options,
                     const std::vector<std::string>& only = {});
 

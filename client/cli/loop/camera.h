@@ -13,8 +13,8 @@ namespace hydroprint::cli {
 /// in twelve poses, with one capture each, then finds lens and depth scale with a calibrate-camera
 /// job.
 /// @param control  control socket of the virtual rig
-/// @param folder   for the board's mesh and poses
-/// @param seed     of the board's poses
+/// @param folder   folder for the files of the board's mesh and poses
+/// @param seed     seed of the board's random poses
 /// @return the calibration, "calibrations/2", which becomes the active camera calibration
 [[nodiscard]] Result<std::string> calibrate_loop_camera(Program& program,
                                                         const std::string& control,

@@ -17,7 +17,8 @@ namespace hydroprint::cli {
 /// Captures frames with the daemon's camera and waits like finish_quietly().
 [[nodiscard]] Result<v1::Job> capture_quietly(Program& program, double seconds);
 
-/// Convert a pose to and from the API's message, in which all numbers must be set.
+/// These functions convert a pose to and from the API's message. All numbers of the message must be
+/// set.
 [[nodiscard]] v1::Pose message_of(const Pose& pose);
 [[nodiscard]] Pose pose_of(const v1::Pose& message);
 

@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAbove_mm = 40;       ///< height above the water during the capture
-constexpr double kRoundDepth_mm = 90;  ///< depth for the sphere, slightly beyond its equator
+constexpr double kAbove_mm = 40;       ///< the object's lowest point above the water in captures
+constexpr double kRoundDepth_mm = 90;  ///< immersion of the sphere, slightly beyond its equator
 
 }  // namespace
 
@@ -78,7 +78,7 @@ Status LoopRounds::take_camera() {
     HP_ASSIGN_OR_RETURN(camera_name_, calibrate_loop_camera(program_, options_.control,
                                                             file("sample"), options_.seed));
     camera_calibration_ = camera_name_;
-  } else if (options_.camera == "active") {  // the default of calibrate
+  } else if (options_.camera == "active") {  // calibrate uses the active one by default
     camera_name_ = "the active one";
   } else if (camera_name_.starts_with("calibrations/")) {
     camera_calibration_ = camera_name_;
@@ -118,9 +118,9 @@ Result<v1::Calibration> LoopRounds::calibrate(loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::get_calibration(program_.daemon(), "calibrations/active"));
   if (found.job() == ended.name()) return found;
-  return fail(
-      Code::kAborted,
-      "another calibration became active during the loop; run the loop again, with no other user");
+  return fail(Code::kAborted,
+              "another calibration became active during the loop; run the loop again while nobody "
+              "else calibrates");
 }
 
 Result<v1::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {
@@ -249,7 +249,7 @@ Result<v1::PredictSpec> LoopRounds::landing(const v1::Job& simulation, loop::Rou
   return spec;
 }
 
-/// Fetches a picture of the printed object for the report.
+/// Computes a picture of the printed object for the report.
 Status LoopRounds::show_landed(v1::PredictSpec spec, loop::Round& out) {
   *spec.mutable_pose() = message_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
   spec.set_artifacts(v1::ARTIFACT_SET_ALL);

@@ -25,8 +25,8 @@ struct LoopOptions {
   v1::SimulateSpec simulation;  ///< only the name of the film model is used
 };
 
-/// Runs the whole loop for one pose after the other: from the object's pose to the place where its
-/// film lands.
+/// Runs the whole loop for each pose in turn: from hanging the object to measuring where the film
+/// lands on it.
 class LoopRounds {
  public:
   LoopRounds(Program& program, const LoopOptions& options, loop::Body body, const HeldLease& lease);
@@ -34,7 +34,7 @@ class LoopRounds {
   /// Creates the object, determines the camera's calibration, and moves the axis to the capture
   /// position.
   [[nodiscard]] Status prepare();
-  /// Runs the loop for pose number `index`.
+  /// Runs the loop for pose number `index`, counted from 0.
   [[nodiscard]] Result<loop::Round> round(int index);
   /// Returns the name of the camera calibration, or its file.
   [[nodiscard]] const std::string& camera() const { return camera_name_; }
@@ -70,7 +70,7 @@ class LoopRounds {
   v1::CalibrateSpec object_;  // mesh and its files
   std::optional<v1::InputFile> camera_;
   std::string camera_calibration_, camera_name_;
-  double gripper_mm_ = 0;  // height above the water during the capture
+  double gripper_mm_ = 0;  // height of the gripper's lower end above the water during the capture
   int number_ = 0;
 };
 

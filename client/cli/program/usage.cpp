@@ -11,7 +11,8 @@
 namespace hydroprint::cli {
 namespace {
 
-// Returns the number of letters to insert, delete, replace or swap with the next one.
+// Returns the number of edits that turn `a` into `b`: letters inserted, deleted, replaced, or
+// swapped with the next letter.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> last, row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), 0U);
@@ -29,7 +30,8 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// Returns the known word that differs in at most a third of its letters; empty if there is none.
+// Returns the most similar known word; empty if even that one needs edits of more than a third of
+// the letters of `word`. One edit is always allowed.
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
   std::string found;
   std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
@@ -49,7 +51,7 @@ std::vector<std::string> commands_of(const CLI::App& app) {
   return names;
 }
 
-// Flags of a command and its parents.
+// Returns the long flags of a command and its parents.
 std::vector<std::string> flags_of(const CLI::App* app) {
   std::vector<std::string> names;
   for (; app != nullptr; app = app->get_parent())
@@ -58,7 +60,8 @@ std::vector<std::string> flags_of(const CLI::App* app) {
   return names;
 }
 
-// Describes the first word that was not understood; empty if it is neither a command nor a flag.
+// Describes the first word that was not understood, and suggests a similar command or flag. Empty
+// if there is no such word, or if it cannot be a command because there are no subcommands.
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   const bool is_flag = words.front().starts_with("-");

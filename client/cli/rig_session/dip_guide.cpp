@@ -191,7 +191,8 @@ class Guide {
   void confirm() {
     const v1::Job job = watched_.job();
     if (!waits(job) || !shown_ || shown_->step() != job.dip_status().step()) return;
-    if (jogger_ && jogger_->is_held()) return;  // release the key first: contact is at standstill
+    // Contact is recorded at standstill, so the key must be released first.
+    if (jogger_ && jogger_->is_held()) return;
     // The stream reports the next step immediately; this response may be older.
     const auto next =
         client::confirm_step(daemon_, job.name(), job.dip_status().step(), lease_.id());

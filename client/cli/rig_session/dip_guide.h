@@ -8,8 +8,7 @@
 namespace hydroprint::cli {
 
 /// Guides a person at a terminal through a dip. Shows each step with its instruction, timer and
-/// warnings; Enter confirms a step. While looking for first contact, the keys of `rig jog` move the
-/// axis.
+/// warnings; Enter confirms a step. In the step FIND_CONTACT, the keys of `rig jog` move the axis.
 /// @param job  the new dip
 /// @return the finished job, successful or not; kCancelled on Ctrl-C, while the dip still runs
 [[nodiscard]] Result<v1::Job> guide(Program& program, const HeldLease& lease, v1::Job job);

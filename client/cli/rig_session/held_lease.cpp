@@ -70,7 +70,8 @@ HeldLease::~HeldLease() {
   renewer_.request_stop();
   renewer_.join();
   if (!is_given_back_) return;
-  static_cast<void>(client::release_lease(daemon_, id_));  // otherwise it expires
+  // If this fails, the lease expires by itself.
+  static_cast<void>(client::release_lease(daemon_, id_));
   forget_lease(server_, id_);
 }
 

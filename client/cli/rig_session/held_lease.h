@@ -17,8 +17,8 @@ namespace hydroprint::cli {
 class HeldLease {
  public:
   /// With a purpose: acquires a lease and releases it at the end. Without: uses the stored lease.
-  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is stored; the message contains the
-  ///         holder and the remedy
+  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is stored; in_our_words() adds the holder
+  ///         and the remedy
   [[nodiscard]] static Result<std::unique_ptr<HeldLease>> take(Program& program,
                                                                const std::string& purpose);
   /// Uses the stored lease if it is still valid. Otherwise acquires one, stores it for other
@@ -30,7 +30,7 @@ class HeldLease {
   HeldLease& operator=(const HeldLease&) = delete;
 
   [[nodiscard]] const std::string& id() const { return id_; }
-  /// Does not release the lease at the end.
+  /// Keeps the lease at the end instead of releasing it.
   void leave() { is_given_back_ = false; }
 
  private:

@@ -87,7 +87,8 @@ Status jog_as_told(Program& program, const JogOptions& options) {
 Status jog(Program& program, const JogOptions& options) {
   const Status jogged = jog_as_told(program, options);
   const bool cancelled = program.is_interrupted();
-  // A failed jog needs no stop. With keys, the stop was sent when the key was released.
+  // A jog that was refused needs no stop. When jogging with keys, the stop was sent when the key
+  // was released.
   const bool lost = !jogged && jogged.error().code == Code::kUnavailable;
   if (!jogged && !cancelled && !lost) return jogged;
   const auto rig = options.time_s ? stop_and_wait(program) : wait_for_rest(program);

@@ -13,7 +13,8 @@ namespace {
 constexpr double kLeast_mm_per_s = 0.05;
 constexpr double kMost_mm_per_s = 100;  // the rig enforces its own limit and reports it
 
-// Temporary refusals: jogging in another direction is possible, or a motion has to end first.
+// Returns whether a refusal is temporary: jogging in the other direction is possible, or a motion
+// has to end first.
 bool passes(const Error& error) {
   return error.code == Code::kAborted || error.reason == "LIMIT_EXCEEDED";
 }
@@ -52,7 +53,7 @@ Result<std::optional<v1::Rig>> Jogger::tick(TimePoint now) {
   if (now - last_sent_ < kPeriod) return std::nullopt;
   last_sent_ = now;
   auto rig = client::jog_rig(daemon_, lease_id_, direction_ * speed_mm_per_s_);
-  // After a failed jog no stop is needed, and a stop might affect another user's motion.
+  // After a refused jog no stop is needed, and a stop might affect another user's motion.
   moved_ = moved_ || rig || may_have_moved(rig.error());
   refusal_ = rig ? "" : rig.error().message;
   if (rig) return std::move(*rig);

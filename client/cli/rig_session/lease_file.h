@@ -9,7 +9,8 @@
 namespace hydroprint::cli {
 
 /// Returns the path of the file that stores the lease id between commands: one file for each
-/// address, mode 0600, in $XDG_RUNTIME_DIR/hydroprint or ~/.local/state/hydroprint.
+/// address, mode 0600, in $XDG_RUNTIME_DIR/hydroprint, $XDG_STATE_HOME/hydroprint or
+/// ~/.local/state/hydroprint.
 [[nodiscard]] std::filesystem::path lease_file(const std::string& server);
 
 /// Stores a lease id; the file is written atomically.

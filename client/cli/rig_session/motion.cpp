@@ -30,7 +30,8 @@ std::string position(const v1::Rig& rig) {
                                : "at an unknown position";
 }
 
-// Returns whether the motion has ended, and the axis is at standstill or no longer moving.
+// Returns whether this motion has ended and the axis is at standstill, or another motion has
+// replaced this one.
 bool is_over(const v1::Rig& rig, std::uint64_t number) {
   if (!rig.has_motion() || rig.motion().number() != number) return true;
   if (rig.motion().outcome() == v1::Motion::RUNNING) return false;

@@ -9,10 +9,10 @@
 
 namespace hydroprint::cli {
 
-/// Removes control characters, so that names cannot move a terminal's cursor.
+/// Replaces control characters with spaces, so that names cannot move a terminal's cursor.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Local time, "2026-03-01 14:05:09"; "-" for nullopt.
+/// Formats a time as local time, "2026-03-01 14:05:09"; "-" for nullopt.
 [[nodiscard]] std::string format_time(
     const std::optional<std::chrono::system_clock::time_point>& time);
 

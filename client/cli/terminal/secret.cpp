@@ -43,7 +43,8 @@ Result<std::string> read_line() {
     const auto count = ::read(STDIN_FILENO, &c, 1);
     if (count == 1 && c == kCtrlC) return fail(Code::kCancelled, "interrupted");
     if (count != 1 && line.empty()) {
-      return fail(Code::kInvalidArgument, "standard input ends where a line was expected");
+      return fail(Code::kInvalidArgument,
+                  "standard input ended before the expected line; provide one line");
     }
     if (count != 1 || c == '\n') return line;
     line += c;

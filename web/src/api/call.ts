@@ -5,7 +5,7 @@ import { done, refused, type Failure, type Result } from '../model/result';
 /** The session's CSRF token, sent with every request that changes something; set at sign-in. */
 export const csrf = signal('');
 
-/** How far the daemon's clock is ahead of the browser's, s; its Date header has whole seconds. */
+/** Time by which the daemon's clock is ahead of the browser's, s; inexact: the Date header has whole seconds. */
 export const ahead_s = signal(0);
 
 /** The current time by the daemon's clock. */
@@ -33,7 +33,7 @@ export function address(path: string, query: Options['query'] = {}): string {
     for (const one of Array.isArray(value) ? value : [value]) parts.append(key, String(one));
   }
   const text = parts.toString();
-  // Names are untrusted and may contain any character. The API itself uses ":" and "/".
+  // Names are untrusted and may contain any character, so all are encoded except ":" and "/", which the API uses.
   const plain = path.split('/').map(encodeURIComponent).join('/').replaceAll('%3A', ':');
   return `/v1/${plain}${text ? `?${text}` : ''}`;
 }
@@ -130,7 +130,7 @@ async function failureOf(response: Response): Promise<Failure> {
   };
 }
 
-// Most messages of the daemon contain the remedy. For these statuses, only the page knows it.
+// Most messages of the daemon contain the remedy. For these statuses, the page adds it.
 function remedyOf(status: number): { remedy?: string } {
   if (status === 401) return { remedy: 'Sign in' };
   if (status === 503)

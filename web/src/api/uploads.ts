@@ -18,7 +18,7 @@ const wait = (seconds: number) => new Promise((resolve) => setTimeout(resolve, 1
 
 /**
  * Uploads a file unless the daemon already has it, and returns the name of its asset ("assets/...").
- * @param onProgress  called with the uploaded fraction, and with true while the connection is lost
+ * @param onProgress  called with the uploaded fraction and whether the connection is lost
  */
 export async function upload(
   file: Blob,

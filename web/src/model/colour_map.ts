@@ -49,7 +49,7 @@ export const depthScale = (nearest_mm: number, farthest_mm: number): Scale => ({
   falls: true,
 });
 
-/** Position of a value on the map: 0 to 1 within the scale, outside this range beyond it. */
+/** Position of a value on the map: 0 to 1 within the scale, below 0 or above 1 outside it. */
 export function place(scale: Scale, value: number): number {
   const share = scale.log
     ? Math.log(value / scale.min) / Math.log(scale.max / scale.min)
@@ -57,7 +57,7 @@ export function place(scale: Scale, value: number): number {
   return scale.falls ? 1 - share : share;
 }
 
-/** Round values for the tick labels, about `wanted` of them at most. */
+/** Returns round values for the tick labels, at most about `wanted` of them. */
 export function ticks(scale: Scale, wanted = 6): number[] {
   if (!(scale.max > scale.min)) return [scale.min];
   const rough = (scale.max - scale.min) / wanted;

@@ -75,7 +75,8 @@ function propertyOf(words: string[]): Property {
   const isList = words[1] === 'list';
   const kind = kKinds[words[isList ? 3 : 1] ?? ''];
   const length = isList ? kKinds[words[2] ?? ''] : undefined;
-  if (!kind || (isList && !length)) throw new Refusal(`"${words.join(' ')}" is unknown`, kAgain);
+  if (!kind || (isList && !length))
+    throw new Refusal(`its header has an unknown property "${words.join(' ')}"`, kAgain);
   return { name: words.at(-1) ?? '', kind, ...(length ? { length } : {}) };
 }
 

@@ -17,7 +17,7 @@ export interface Report {
     dpi?: number;
     film_image_px?: number[];
     model?: string;
-    /** The planned depth of a dip. In a simulation it may be "full". */
+    /** The planned depth, mm. For a simulation it may also be "full". */
     depth_mm?: number | string;
     /** For a dip only. */
     speed_mm_per_s?: number;

@@ -18,7 +18,7 @@ const kRoles: Role[] = ['VIEWER', 'MAKER', 'OPERATOR', 'ADMIN'];
 export const may = (role: Role): boolean =>
   who.value !== undefined && kRoles.indexOf(who.value.role) >= kRoles.indexOf(role);
 
-/** The user's name, as in the owner of a job. */
+/** The user's name, as in Job.owner. */
 export const me = computed(() => who.value?.user ?? '');
 
 /** True if the user may change jobs of that owner. */

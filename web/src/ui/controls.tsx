@@ -89,7 +89,7 @@ export function NumberField(props: {
   disabled?: boolean;
 }) {
   const id = useId();
-  // If undefined, the field shows the value.
+  // The text that the user typed. If undefined, the field shows the value.
   const [typed, setTyped] = useState<string>();
   const lastValue = useRef(props.value);
   const valueBefore = useRef(props.value);
@@ -168,7 +168,7 @@ export function NumberField(props: {
 
 const failureOf = (result: Result<unknown>) => (result.ok ? undefined : result.failure);
 
-/** True if equal up to rounding, which occurs when a value is converted and converted back. */
+/** True if equal up to rounding, which occurs when a value is converted to another unit and back. */
 const isSame = (a: number | undefined, b: number | undefined): boolean =>
   a === b ||
   (a !== undefined && b !== undefined && Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(b)));

@@ -28,7 +28,7 @@ export type Gizmo = 'none' | 'rotate' | 'translate';
 
 export class PoseView {
   private readonly stage: Stage;
-  // Located at the centre of the object's bounding box; rotates about it.
+  // Its origin is the centre of the object's bounding box, about which the object rotates.
   private readonly holder = new Group();
   private readonly gizmo: TransformControls;
   private object: Mesh3 | undefined;
@@ -78,7 +78,7 @@ export class PoseView {
     this.stage.draw();
   }
 
-  /** Shows a coloured mesh (object's frame, mm) instead of the textured object, or the textured object again. */
+  /** Shows a coloured mesh (object's frame, mm) instead of the textured object; without one, the textured object. */
   setHeat(heat?: { positions: Float32Array; corners: Uint32Array; colours: Uint8Array }): void {
     this.holder.remove(this.heat);
     disposeOf(this.heat);

@@ -265,7 +265,8 @@ function split(map: SurfaceMap): { wet: number[]; bare: number[] } {
   return { wet, bare };
 }
 
-// Film gathered to a quarter of its length comes from four times as far. At larger distances it is torn in between.
+// The film may gather to a quarter of its length. If two vertices are farther apart on the film than four times their
+// distance on the object (plus 1 mm), the film between them is torn.
 function areNeighbours(map: SurfaceMap, a: number, b: number): boolean {
   const apart = (of: Float32Array, size: number) => {
     let sum = 0;

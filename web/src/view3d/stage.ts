@@ -1,6 +1,6 @@
 /**
- * The common part of both 3D views: camera, light, the film at true size in z = 0 and the water below it; mm, z up.
- * Renders only when something changes. Independent of the rest of the page.
+ * The common part of both 3D views: camera, light, the film at true size in the plane z = 0, and the water below it;
+ * mm, z up. Renders only when something changes. Independent of the rest of the page.
  */
 import {
   AmbientLight,

@@ -20,7 +20,7 @@ function start(): Worker {
     waiting.get(data.id)?.(data.answer);
     waiting.delete(data.id);
   };
-  // Most likely out of memory. The next request starts a new worker.
+  // The worker has most likely run out of memory. The next request starts a new worker.
   newWorker.onerror = () => {
     for (const give of waiting.values()) give(undefined);
     waiting.clear();

@@ -58,7 +58,7 @@ function Found({ calibration }: { calibration: Calibration }) {
             ['Error on the surface (median)', orDash(calibration.errorP50Mm)],
             ['Error (95th percentile)', orDash(calibration.errorP95Mm)],
             ['Error (maximum)', orDash(calibration.errorMaxMm)],
-            ['Height above the water', orDash(calibration.heightMm)],
+            ['Height of the object above the water', orDash(calibration.heightMm)],
             ['Axis position at first contact', orDash(calibration.contactMm)],
             ['Water level', orDash(calibration.waterZMm)],
           ]}

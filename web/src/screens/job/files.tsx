@@ -4,7 +4,7 @@ import { formatBytes } from '../../model/units';
 import { fileOf, type Results } from './results';
 
 const kWhat: Record<string, string> = {
-  'film.png': 'Film image, to print at its own size',
+  'film.png': 'Film image; print it at its original size',
   'film_map.exr': 'Map from the film to the object',
   'surface_map.ply': 'Map from the object to the film',
   'stretch.png': 'Stretch of the film on the object',

@@ -1,4 +1,4 @@
-/** The draft of a new print. It is kept with its files across reloads until it is submitted. */
+/** The draft of a new print. It is kept with its files across reloads until the user starts over. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import * as rules from '../../api/rules';
 import { jobs as jobsApi } from '../../api/services';
@@ -28,7 +28,7 @@ export interface Draft {
   /** If not set, the whole object is dipped. */
   depth_mm?: number;
   speed_mm_per_s: number;
-  /** Makes a repeated request create only one job. Every change of the draft sets a new one. */
+  /** Ensures that a repeated request creates only one job. Every change of the draft sets a new id. */
   requestId: string;
 }
 
@@ -88,7 +88,10 @@ export async function restore(): Promise<void> {
   });
 }
 
-/** Initial scale: the unit of the file format (default: mm) if the size is plausible, else such that the object is 100 mm. */
+/**
+ * Initial scale: the unit of the file format (default: mm) if the object is then 15 to 400 mm long; otherwise the scale
+ * at which it is 100 mm long.
+ */
 export function firstScale({ mesh, box }: Shape): number {
   const unit_mm = mesh.unit_mm ?? 1;
   const longest = longestOf(box) * unit_mm;

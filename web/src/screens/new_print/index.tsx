@@ -47,7 +47,7 @@ export function NewPrint() {
       <div class="panel">
         {!may('MAKER') && (
           <p class="note">
-            You can view this page but not submit. Ask an admin for the role Maker.
+            You can view this page but not submit jobs. Ask an admin for the role Maker.
           </p>
         )}
         <FieldErrorsOf value={errors}>

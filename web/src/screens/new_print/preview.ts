@@ -62,7 +62,7 @@ class PreviewRequester {
   private bringing = new AbortController();
   private asking = new AbortController();
   private timer = 0;
-  /** The last received mesh; `key` names its asset, and its calibration or scale. */
+  /** The last received mesh; `key` identifies its asset and its calibration or scale. */
   private known: { key: string; positions: Float32Array; corners: Uint32Array } | undefined;
   private isOff = false;
 

@@ -89,7 +89,8 @@ function obstacle(): string | undefined {
   if (Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2)
     return 'The object is beside the film. Move it over the film';
   const calibration = calibrated.value?.calibration;
-  if (calibration && staleness(calibration)) return 'The calibration is no longer valid';
+  if (calibration && staleness(calibration))
+    return 'The calibration is no longer valid. Calibrate again, or enter the pose manually';
   return undefined;
 }
 

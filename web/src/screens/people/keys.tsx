@@ -16,7 +16,7 @@ const kTimes = [
   { value: '', label: 'no expiry' },
 ];
 
-/** API keys, with which scripts act for their owner. */
+/** API keys, which let scripts act with their owner's permissions. */
 export function Keys() {
   const { value, failure, again } = useFetched(api.keys);
   const [secret, setSecret] = useState('');

@@ -106,7 +106,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
     say(`${name} was added`);
     setName('');
     setPassword('');
-    // From the first user on, signing in is required.
+    // Once there is a user, signing in is required.
     if (isFirst) await begin();
     if (may('ADMIN')) await again();
   };

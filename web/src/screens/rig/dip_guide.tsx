@@ -119,7 +119,8 @@ function Confirm({ job, words }: { job: Job; words: string | undefined }) {
   if (!isOurs.value)
     return (
       <p class="quiet">
-        Only the holder of the lease can continue. To continue, take control of the rig.
+        Only the person who controls the rig can confirm this step. To confirm it, take control of
+        the rig.
       </p>
     );
   return (
