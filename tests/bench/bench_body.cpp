@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Longitude and latitude in [0, 1]. The longitude is shifted towards `near_u`, so it may exceed 1
-/// in faces across the date line.
+/// Longitude and latitude, scaled to [0, 1]. The longitude is shifted by a full turn if that brings
+/// it closer to `near_u`, so in faces across the date line it may lie outside [0, 1].
 Vector2d uv_of(const Vector3d& p, double near_u) {
   const double u = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
   return {u + std::round(near_u - u), std::asin(p.z() / p.norm()) / std::numbers::pi + 0.5};
