@@ -1,4 +1,4 @@
-// Invalid models and textures: one line that names the file, and nothing left behind.
+// Invalid models and textures cause a one-line error that names the file, and leave no files.
 
 #include <gtest/gtest.h>
 
@@ -140,7 +140,7 @@ TEST_F(Worker, MissingPartsOfAModelAreRefusedByName) {
                std::string("mtllib notexture.mtl\n") + tetrahedron + "usemtl skin\n" + faces);
   expect_refusal(3, simulate({"--mesh", path("notexture.obj")}, false), {"absent skin.png"});
 
-  // A texture on the command line replaces all of them.
+  // A texture on the command line replaces all materials and textures of the model.
   const Ended ended = testing::run(
       simulate({"--mesh", path("nomtl.obj"), "--texture", path("texture.png")}, false));
   EXPECT_EQ(ended.status, 0) << ended.err;
