@@ -1,5 +1,5 @@
-// Accuracy of poses from depth frames with all camera errors, and of their stated covariance.
-// bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
+// Measures the accuracy of poses from depth frames with all camera errors, and of their stated
+// covariance. Usage: bench_calibrate [POSES [FRAMES]]; defaults: 200 and 60.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>

@@ -27,7 +27,7 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 
 constexpr int kTries = 40;
-constexpr int kCores = 2;  // as in tests/bench/run
+constexpr int kCores = 2;  // tests/bench/run uses two cores
 constexpr int kJobs = 400;
 constexpr double kSpeed_mm_per_s = 10;
 constexpr double kDipSpeed_mm_per_s = 5;

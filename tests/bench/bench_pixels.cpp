@@ -1,7 +1,7 @@
 // Compares the fast pixel map (the tiles of the film image) with one particle per pixel. See
 // README.md.
 //
-// usage: bench_pixels BODY PIXELS
+// Usage: bench_pixels BODY PIXELS
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>

@@ -19,7 +19,7 @@ constexpr char kNewPassword[] = "battery staple";
 
 using Tree = std::map<std::string, std::string>;
 
-// The content of a folder, file by file.
+// The contents of all files in a folder, by relative path.
 Tree tree_of(const std::filesystem::path& folder) {
   Tree tree;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -379,7 +379,7 @@ TEST_F(AdminCli, WrongPasswordsAndUsersAreRefused) {
   EXPECT_EQ(reset(std::string(1001, 'x') + "\n").status, 3);
   EXPECT_EQ(admin({"sign-in-link", "nobody"}).status, 3);
   EXPECT_EQ(client({"admin", "sign-in-link", "ann", "--state-dir", "/nowhere"}).status, 3);
-  log_in("ann");  // nothing has changed
+  log_in("ann");  // the password is unchanged
 }
 
 TEST_F(AdminCli, ALinkSignsInOnce) {

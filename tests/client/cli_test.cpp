@@ -601,7 +601,7 @@ TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
-/// Frames as written by hydroprint-capture, for the fake worker.
+/// Fixture with a folder of frames like those of hydroprint-capture, for the fake worker.
 class CalibrateCli : public Cli {
  protected:
   CalibrateCli() {

@@ -30,8 +30,8 @@ struct Rig {
   std::vector<simulated_scene::MarkerState> states;  ///< states of the markers
   double gripper_mm = 150;                           ///< height of the gripper's lower end
   std::vector<simulated_scene::Body> more;           ///< additional bodies
-  bool furnished = true;                             ///< if false, there are only the bodies `more`
-  simulated_camera::Errors errors;                   ///< camera errors in frames()
+  bool furnished = true;            ///< false: the scene contains only the bodies `more`
+  simulated_camera::Errors errors;  ///< camera errors in frames()
 
   Rig();
   [[nodiscard]] Pose X_CF() const;

@@ -42,7 +42,7 @@ class SweptCamera {
   std::unique_ptr<simulated_camera::Renderer> renderer_;
 };
 
-/// The depth frame of a camera that faces a wall.
+/// The depth frame of a camera that faces a wall at this depth.
 [[nodiscard]] scan::DepthFrame wall_frame(float depth_mm);
 
 }  // namespace hydroprint::testing

@@ -44,7 +44,8 @@ class CalibrateApi : public CameraTest {
     EXPECT_EQ(all().front().job(), job.name());
     return all().front();
   }
-  /// Same as above, with the rig homed and the axis at the capture position.
+  /// Homes the rig, captures at the capture position, and returns the calibration from this
+  /// capture.
   v1::Calibration calibrated() {
     ann->make_ready();
     ann->go_to(kAxis_mm);

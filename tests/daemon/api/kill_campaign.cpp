@@ -53,7 +53,7 @@ struct Plan {
   double speed_mm_per_s = kFastest_mm_per_s;
   double target_mm = 0;          ///< target of a move; start of a dip
   double depth_mm = 0;           ///< only for a dip
-  double after_s = 0;            ///< time after the order is sent
+  double after_s = 0;            ///< time from the command to the kill
   bool restart_at_once = false;  ///< restart the daemon while the axis may still move
 };
 
@@ -295,7 +295,7 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   ASSERT_TRUE(profile);
   const double watchdog_s = profile->watchdog->largest_time_s;
-  // Homing has its own speed.
+  // Homing always uses the same speed, whatever the plan.
   const double speed = plan.kind == Kind::kHome ? kFastest_mm_per_s : plan.speed_mm_per_s;
   const double in_s = watchdog_s + speed / profile->stopping_deceleration_mm_per_s2;
   const double in_mm = drive::stopping_distance_mm(*profile, speed, watchdog_s);

@@ -1,4 +1,3 @@
-// The audit log.
 #include "daemon/auth/audit_log.h"
 
 #include <gtest/gtest.h>

@@ -222,7 +222,7 @@ TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
     EXPECT_EQ(accounts->keys().get("k")->display_name, "nightly");
     auth::AuditLog audit(*database, system_clock_ms);
     EXPECT_EQ(audit.list({})->size(), 1U);
-    // New columns and tables exist.
+    // The new columns and tables must exist.
     EXPECT_TRUE(retention.pin(1, true)->pinned);
     EXPECT_TRUE(retention.pin(1, false));
     EXPECT_TRUE(database->run("UPDATE jobs SET purge_ms=9 WHERE id=1"));

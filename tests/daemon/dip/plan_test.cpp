@@ -90,7 +90,7 @@ TEST(DipPlan, ProgressGrowsFromZeroToOneAndNeverFalls) {
 }
 
 TEST(DipPlan, ActivatorIsProportionalToTheFilmArea) {
-  const Plan plan;  // A4, 16 ml/m2
+  const Plan plan;  // the default: an A4 film and 16 ml/m2
   EXPECT_NEAR(plan.activator_ml(), 0.998, 0.001);
   EXPECT_NE(instruction(Step::kSprayActivator, plan).find("1.0 ml"), std::string::npos);
 }

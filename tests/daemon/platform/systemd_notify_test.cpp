@@ -42,7 +42,7 @@ class ServiceManager : public ::testing::Test {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
     ::close(socket_);
   }
-  /// The next message; empty after two seconds without one.
+  /// The next message; empty if none arrives within two seconds.
   std::string messages(int flags = 0) {
     std::array<char, 512> bytes{};
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);

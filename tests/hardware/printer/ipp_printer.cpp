@@ -27,7 +27,7 @@ int free_port() {
 }
 
 void wait_until(const std::function<bool()>& is_so, const std::string& program) {
-  for (int i = 0; i < 2400; ++i) {  // a busy machine is slow
+  for (int i = 0; i < 2400; ++i) {  // a long limit, because a busy machine is slow
     if (is_so()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

@@ -15,7 +15,7 @@ using Outcome = MotionReport::Outcome;
 class Fault : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(Fault);
 
-/// After a fault, nothing moves until reset, arming and homing, in this order.
+/// Expects that, after a fault, nothing moves until reset, arming and homing, in this order.
 void expect_the_long_way_back(WiredRig& rig) {
   ASSERT_TRUE(rig.becomes(State::kFault));
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_FAULTED");

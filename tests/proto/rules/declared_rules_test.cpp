@@ -34,7 +34,7 @@ void visit_message(const pb::Descriptor& message, const EachField& visit,
   }
 }
 
-// Fields of all specs and of the messages that they contain.
+// Visits the fields of all specs and of the messages that they contain.
 void visit_spec_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   const pb::OneofDescriptor& specs = *v1::Job::descriptor()->FindOneofByName("spec");
@@ -44,7 +44,7 @@ void visit_spec_fields(const EachField& visit) {
   ASSERT_GT(seen.size(), 11U);
 }
 
-// Fields of all requests and responses.
+// Visits the fields of all requests and responses.
 void visit_all_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   for (const char* name : {"ArtifactService", "AssetService", "CalibrationService", "CameraService",

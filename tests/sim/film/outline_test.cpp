@@ -77,10 +77,10 @@ TEST(Outline, PolygonStaysWhereTheFilePutsItAndTurnsCounterClockwise) {
 
 TEST(Outline, PolygonsThatCrossOrTouchThemselvesAreRefusedByCorner) {
   const std::vector<std::string> bad = {
-      "[[0,0],[40,40],[40,0],[0,40]]",                  // bow tie
+      "[[0,0],[40,40],[40,0],[0,40]]",                  // crosses itself
       "[[0,0],[40,0],[20,0],[20,40]]",                  // folds back
       "[[0,0],[40,0],[40,40],[20,0],[0,40]]",           // touches an edge with a corner
-      "[[0,0],[20,20],[40,0],[40,40],[20,20],[0,40]]",  // pinched
+      "[[0,0],[20,20],[40,0],[40,40],[20,20],[0,40]]",  // touches itself at a corner
       "[[0,0],[40,0],[80,0]]",                          // no area
       "[[0,0],[40,0],[40,0],[0,40]]",                   // same corner twice
   };

@@ -55,8 +55,8 @@ film::Profile truth() {
   return profile;
 }
 
-/// Inputs small enough to be fast at the program's usual settings: a ball of 12 mm in a film of 60
-/// x 70 mm, dipped to its equator, half of the film black.
+/// Inputs small enough for fast fits at the default settings: a ball of 12 mm radius, dipped 14 mm
+/// deep into a film of 60 x 70 mm, of which nearly half is black.
 class FitWorker : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

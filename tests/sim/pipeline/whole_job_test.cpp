@@ -28,7 +28,7 @@ struct Body {
   double scale = 1;
   double turn_x_rad = 0;
   double least_coverage = 0;
-  double least_right = 0.97;  ///< share of points with the correct colour
+  double least_right = 0.97;  ///< least share of points with the correct colour
 };
 
 void PrintTo(const Body& body, std::ostream* out) { *out << body.name; }

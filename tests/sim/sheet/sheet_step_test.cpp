@@ -54,7 +54,8 @@ Scene scene() {
     out.thickness_mm.push_back(x > 10 && x < 25 ? 0.7 : 0.5);
   }
   out.fixed = boundary_velocities(out.mesh, out.line.pulls);
-  for (Vector2d& u : out.fixed) u *= 1.2 * kDipSpeed_mm_per_s;  // theta = 100 degrees
+  for (Vector2d& u : out.fixed)
+    u *= 1.2 * kDipSpeed_mm_per_s;  // 1.2 = tan(50 degrees), the pull at theta = 100 degrees
   out.quasistatic = Sheet(out.mesh, 0, out.fixed).solve(out.thickness_mm).value();
   return out;
 }

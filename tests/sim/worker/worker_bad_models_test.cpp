@@ -41,7 +41,7 @@ std::string big_endian(std::uint32_t value) {
   return bytes;
 }
 
-/// The beginning of a PNG that announces a size, with a chunk of useless data.
+/// The beginning of a PNG whose header states a size, with a chunk of useless data.
 std::string png_announcing(std::uint32_t width, std::uint32_t height) {
   const auto chunk = [](const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data +

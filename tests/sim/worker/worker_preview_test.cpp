@@ -43,7 +43,7 @@ struct Answer {
   std::vector<float> floats;  ///< the bytes that follow the head
 };
 
-/// The program and its client.
+/// The running program and its client.
 class Session {
  public:
   explicit Session(const Arguments& arguments, std::array<int, 2> in = make_pipe(),

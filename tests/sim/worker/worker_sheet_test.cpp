@@ -1,4 +1,4 @@
-// The sheet and its ink.
+// The sheet model, with the passes that determine its ink.
 
 #include <gtest/gtest.h>
 

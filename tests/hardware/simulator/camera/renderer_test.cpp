@@ -1,4 +1,4 @@
-// Compares the rendered depths, without noise, with closed forms.
+// Compares rendered depths, without noise, with exact formulas.
 #include "hardware/simulator/camera/renderer.h"
 
 #include <gtest/gtest.h>

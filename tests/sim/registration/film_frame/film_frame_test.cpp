@@ -1,4 +1,4 @@
-// The film frame from scans of four pyramids.
+// The film frame from scans of the four marker pyramids.
 #include "sim/registration/film_frame/film_frame.h"
 
 #include <gtest/gtest.h>
