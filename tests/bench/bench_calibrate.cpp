@@ -74,8 +74,8 @@ Pose held(int i, std::mt19937& random) {
   X_CB.linear() = Eigen::AngleAxisd(tilt, about).matrix() *
                   Eigen::Vector3d(1, -1, -1).asDiagonal() *
                   Eigen::AngleAxisd(even(random, -0.2, 0.2), Eigen::Vector3d::UnitZ()).matrix();
-  const double away_mm = 520 + 90 * (i % 6),
-               aside = 0.5 - 126 / away_mm;  // keeps the board inside the image
+  // `aside` keeps the board inside the image.
+  const double away_mm = 520 + 90 * (i % 6), aside = 0.5 - 126 / away_mm;
   X_CB.translation() =
       away_mm * Eigen::Vector3d(aside * std::cos(2.4 * i), 0.66 * aside * std::sin(2.4 * i), 1);
   return X_CB;

@@ -94,8 +94,8 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   EXPECT_FALSE(reader.jobs->GetJob(reader.context().get(), later, &none).ok());
   v1::ListSessionsResponse sessions;
   ASSERT_TRUE(reader.people->ListSessions(reader.context().get(), {}, &sessions).ok());
-  EXPECT_EQ(sessions.sessions_size(),
-            1);  // only the new session: sessions of the backup are not restored
+  // The only session is the new one: sessions of the backup are not restored.
+  EXPECT_EQ(sessions.sessions_size(), 1);
   EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
 }
 
@@ -150,8 +150,8 @@ TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
   EXPECT_EQ(refused.status, 3) << refused.err;
   EXPECT_EQ(content(file), "precious");
   EXPECT_NE(admin({"backup", "/nowhere/backup.tar"}).status, 0);
-  EXPECT_EQ(admin({"backup", folder_.path() / "x.tar"}, other_.path()).status,
-            3);  // the folder has no store
+  // other_ contains no store.
+  EXPECT_EQ(admin({"backup", folder_.path() / "x.tar"}, other_.path()).status, 3);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar.part"));
   EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
@@ -195,8 +195,8 @@ TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
     const Outcome ended = admin({"restore", good}, small / "state");
     const Tree left = tree_of(small / "state");
     EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
-    EXPECT_EQ(left.size() > 1, ended.status == 0)
-        << ended.err;  // a failed restore leaves only the lock file
+    // A failed restore leaves only the lock file.
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;
     ++(ended.status == 0 ? restores : refused);
   }
   EXPECT_GT(backups, 0);

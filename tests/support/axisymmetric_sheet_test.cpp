@@ -186,8 +186,8 @@ class TwoParts {
   }
 
  private:
-  using Pair =
-      std::array<double, 2>;  // radius of the seam, and square of the consumed film's radius
+  /// Radius of the seam, and square of the consumed film's radius.
+  using Pair = std::array<double, 2>;
 
   [[nodiscard]] Pair moved(const Pair& rate, double by) const {
     return {now_[0] + by * rate[0], now_[1] + by * rate[1]};
@@ -195,8 +195,8 @@ class TwoParts {
 
   [[nodiscard]] Pair rate(double theta, const Pair& state) const {
     const double a = kSphere * std::sin(theta);
-    const double pull =
-        -kSphere * (1 - std::cos(theta));  // pull per unit of angle: -tan(theta/2) ds
+    // Pull per unit of angle: -tan(theta/2) ds.
+    const double pull = -kSphere * (1 - std::cos(theta));
     const double seam = state[0];
     const double inner_stretch = (seam * seam - a * a) / (rest_ * rest_ - state[1]);
     const double outer_stretch = (kVat * kVat - seam * seam) / (kVat * kVat - rest_ * rest_);

@@ -14,9 +14,9 @@ struct KeyPair {
 
 /// Requested contents of a certificate.
 struct Wanted {
-  std::vector<std::string> names{"DNS:localhost",
-                                 "IP:127.0.0.1"};  ///< alternative names, in OpenSSL's notation
-  int from_days = -1, to_days = 30;                ///< validity, in days from now
+  /// Alternative names, in OpenSSL's notation.
+  std::vector<std::string> names{"DNS:localhost", "IP:127.0.0.1"};
+  int from_days = -1, to_days = 30;  ///< validity, in days from now
 };
 
 /// A certificate authority for tests, which no other program trusts.

@@ -331,8 +331,8 @@ TEST_P(DipFault, WhileTheFilmSoaksFailsTheDipToo) {
   const std::string name = ann.dip(spec).name();
   ann.guide_to(name, v1::DipStatus::SOAK);
   rig.act(GetParam().line);
-  if (GetParam().name ==
-      std::string("Stall")) {  // nothing moves in this step, so nothing can stall
+  // Nothing moves in this step, so nothing can stall.
+  if (GetParam().name == std::string("Stall")) {
     std::this_thread::sleep_for(milliseconds(500));
     EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::SOAK);
     return;

@@ -134,8 +134,8 @@ TEST_F(Previews, EndWithTheDaemonEvenIfAWorkerIsSilent) {
     v1::Preview out;
     EXPECT_FALSE(preview("mute", out).ok());
   });
-  std::this_thread::sleep_for(
-      std::chrono::seconds(2));  // long enough for the upload, also in a slow build
+  // Waits long enough for the upload, also in a slow build.
+  std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_EQ(daemon->terminate(), 0);
   waiting.join();
 }

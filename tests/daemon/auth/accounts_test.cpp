@@ -173,8 +173,8 @@ TEST_F(Sessions, EndWhenUnused) {
   EXPECT_FALSE(accounts->sessions().caller(in.token));
   ASSERT_TRUE(accounts->clean_up());
   now_ms -= 12 * kHour_ms;
-  EXPECT_FALSE(accounts->sessions().caller(
-      in.token));  // a session that has ended stays ended, whatever the clock says
+  // A session that has ended stays ended, whatever the clock says.
+  EXPECT_FALSE(accounts->sessions().caller(in.token));
 }
 
 TEST_F(Sessions, AreNotKeptAliveByListing) {

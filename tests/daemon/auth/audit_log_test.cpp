@@ -70,8 +70,8 @@ TEST_F(Audit, WaitForAHangingStoreTimesOut) {
   EXPECT_FALSE(
       log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::milliseconds(50)));
   ASSERT_TRUE(other->run("COMMIT"));
-  EXPECT_EQ(log->list({"", "", 0, 10})->size(),
-            1U);  // the entry is written once the store responds
+  // The entry is written once the store responds.
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);
 }
 
 TEST_F(Audit, FailingStoreEndsTheWaitAtOnce) {

@@ -11,8 +11,8 @@ namespace {
 
 using Is = Event::Kind;
 
-constexpr double kStep_s =
-    30;  // time between two events: shorter than some clocks and longer than others
+// Time between two events: shorter than some clocks and longer than others.
+constexpr double kStep_s = 30;
 const Clocks kClocks{60, 20, 60, false};
 constexpr int kEvents = static_cast<int>(Is::kShutdown) + 1;
 

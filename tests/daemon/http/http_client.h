@@ -34,9 +34,7 @@ struct HttpEvent {
 class HttpConnection {
  public:
   /// @param address  "127.0.0.1:40123"
-  /// @param receive_buffer_bytes  size of the socket's receive buffer, which limits unread data; 0:
-  /// the
-  ///                              system's default
+  /// @param receive_buffer_bytes  size of the socket's receive buffer; 0: the system's default
   /// @param ca_pem  the trusted authority for "localhost"; empty: no TLS
   explicit HttpConnection(const std::string& address, int receive_buffer_bytes = 0,
                           const std::string& ca_pem = "");

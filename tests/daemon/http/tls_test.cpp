@@ -273,8 +273,8 @@ TEST_P(TlsLimits, PendingHandshakesCountAsConnections) {
   HttpConnection one(address());
   HttpConnection two(address());
   HttpAnswer answer;
-  for (int i = 0; i < 1000 && answer.status != 503;
-       ++i) {  // repeated until the server has accepted both connections
+  // Repeats the request until the server has accepted both connections.
+  for (int i = 0; i < 1000 && answer.status != 503; ++i) {
     answer = connect().ask("GET", "/v1/queue");
   }
   EXPECT_EQ(answer.reason(), "CONNECTIONS_FULL");

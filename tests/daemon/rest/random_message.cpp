@@ -59,9 +59,8 @@ void draw(pb::Message& message, Random& random, int levels) {
   for (int i = 0; i < type.field_count(); ++i) {
     const pb::FieldDescriptor& field = *type.field(i);
     std::size_t times = below(random, field.is_repeated() ? 4 : 2);
-    if (field.is_map())
-      times = std::min<std::size_t>(
-          times, 1);  // one entry, because a repeated key would not survive a round trip
+    // At most one entry in a map, because a repeated key would not survive a round trip.
+    if (field.is_map()) times = std::min<std::size_t>(times, 1);
     for (; times > 0; --times) draw_field(message, field, random, levels);
   }
 }

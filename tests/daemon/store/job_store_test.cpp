@@ -108,8 +108,8 @@ TEST_F(JobStoreTest, FullDatabaseRefusesWithoutSideEffectsAndRecovers) {
   job_options.max_queued = 1000000;
   open();
   const std::int64_t first = complete(add("same").id).id;
-  ASSERT_TRUE(database->run(
-      "PRAGMA max_page_count=1"));  // SQLite uses the present number of pages as the limit
+  // SQLite uses the present number of pages as the limit.
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));
   NewJob definition;
   definition.owner = "ann";
   definition.work.verb = "simulate";

@@ -195,8 +195,8 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
     const std::uint64_t missed = rig->snapshot().missed_polls;
     rig.drive().act("fault late 200ms 1");
     ASSERT_TRUE(wait_until([&] { return rig->snapshot().missed_polls > missed; }));
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(300));  // by now the late reply has arrived
+    // Waits until the late reply has arrived.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
   // The axis was at rest all the time, so no sample may show another position.
   const auto samples = rig->samples(rig.report(rig->snapshot().motion).last_sample + 1, UINT64_MAX);

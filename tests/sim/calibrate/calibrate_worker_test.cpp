@@ -22,8 +22,8 @@ TEST_F(Calibrate, NamesAHiddenMarker) {
       calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json out = json::parse(ended.out);
-  ASSERT_EQ(out["warnings"].size(), 2U)
-      << out["warnings"];  // the second warning: the pose is not fully determined
+  // The second warning says that the pose is not fully determined.
+  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];
   EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
   EXPECT_EQ(out["warnings"][0]["where"], "near");
 }

@@ -132,8 +132,8 @@ TEST(Outline, UnknownWordsAreRefused) {
 }
 
 TEST(Outline, ContainsTheInsideAndTheEdgeOnly) {
-  const auto outline =
-      polygon("[[0,0],[40,0],[40,40],[20,10],[0,40]]");  // a rectangle with a notch from above
+  // A rectangle with a notch from above.
+  const auto outline = polygon("[[0,0],[40,0],[40,40],[20,10],[0,40]]");
   ASSERT_TRUE(outline);
   for (const Vector2d& inside :
        {Vector2d(20, 5), Vector2d(1, 30), Vector2d(39, 30), Vector2d(20, 10), Vector2d(0, 20),

@@ -189,15 +189,15 @@ TEST(IccSeparation, HugeTablesThatAHeaderAnnouncesAreNotAllocated) {
   const std::size_t grid_points = table + word(table + 24);
   ASSERT_EQ(whole.substr(grid_points, 4), std::string("\2\2\2\0", 4));
   const long before = peak_kib();
-  for (const char points :
-       {'\xFF', '\x7F'}) {  // tables with 4 channels of 2 bytes would have 133 MB and 16 MB
+  // With 4 channels of 2 bytes, the tables would have 133 MB and 16 MB.
+  for (const char points : {'\xFF', '\x7F'}) {
     std::string lying = whole;
     lying.replace(grid_points, 3, 3, points);
     expect_refused(separation_from(lying), Code::kDataLoss, "grid points");
   }
   EXPECT_LT(peak_kib() - before, 64 * 1024);
-  for (const std::size_t at :
-       {std::size_t{0}, std::size_t{128}}) {  // fields of the header: size, number of tags
+  // Corrupts the size and the number of tags in the header.
+  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {
     std::string lying = whole;
     lying.replace(at, 4, 4, '\xFF');
     expect_refused(separation_from(lying), Code::kDataLoss, "sizes");

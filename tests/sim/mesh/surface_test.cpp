@@ -147,8 +147,8 @@ TEST(MakeSurface, NeedlesAreSubdividedConformingly) {
 }
 
 TEST(MakeSurface, BarycentricsLeadBackToTheSourceTriangle) {
-  const Model model =
-      turned(torn(box({0, 0, 0}, {30, 20, 10})));  // turned inside out, which also swaps corners
+  // The box is turned inside out, which also swaps corners.
+  const Model model = turned(torn(box({0, 0, 0}, {30, 20, 10})));
   const Surface surface = made(model);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& source = model.triangles[surface.source_triangle[t]];

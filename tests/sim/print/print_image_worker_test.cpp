@@ -269,8 +269,8 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   image::RgbImage image = blank(827, 1169);  // A4 at 100 dpi
   fill(image, 400, 500, 500, 600, {0, 0, 255});
   film(image);
-  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(),
-            1U);  // the only warning is about marks
+  // The only warning is about marks.
+  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);
   fill(image, 0, 500, 400, 600, {0, 0, 255});
   film(image);
   const auto report = print({"--printer-margin-mm", "5", "--formats", "png"});

@@ -34,8 +34,8 @@ std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
 TEST(PoseFit, MakesNoStepAlongUndeterminedMotions) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_a_plate(800);
-  const Pose start(Eigen::Translation3d(
-      3, -2, 802));  // 2 mm too far away; the underside of the plate faces the camera
+  // The start is 2 mm too far away. The underside of the plate faces the camera.
+  const Pose start(Eigen::Translation3d(3, -2, 802));
   FitOptions options;
   options.weak_sigma_mm = std::numeric_limits<double>::infinity();
   const auto fit = fit_pose(plate, points, {}, start, start, options, testing::two_threads());

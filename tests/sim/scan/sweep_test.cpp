@@ -120,8 +120,8 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
 TEST(Sweep, NamesTheFrameThatWasLost) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(4);
-  for (int i = 0; i < 12; ++i)
-    frames.push_back(testing::wall_frame(600));  // the camera is turned to a wall
+  // The camera is turned to a wall.
+  for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));
   const auto lost = fuse(frames, camera.lens());
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.error().reason, "CAMERA_LOST");
@@ -132,8 +132,8 @@ TEST(Sweep, NamesTheFrameThatWasLost) {
 /// After a jump, each frame must be either lost or placed correctly.
 TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   const SweptCamera camera(block());
-  for (const int jump :
-       {9, 70}) {  // number of skipped frames: the camera moves by 50 mm and by 0.5 m
+  // During the skipped frames, the camera moves by 50 mm and by 0.5 m.
+  for (const int jump : {9, 70}) {
     std::vector<DepthFrame> frames = camera.frames(4);
     for (int i = 0; i < 2; ++i) frames.push_back(camera.frame(3 + jump + i));
     const auto sweep = fuse(frames, camera.lens());

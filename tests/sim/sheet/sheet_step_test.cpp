@@ -25,8 +25,8 @@ using testing::Function;
 using testing::irregular_mesh;
 using testing::prescribed;
 
-constexpr double kViscosity_mpa_s =
-    1.82 * 0.02 / 3;  ///< of Young's modulus and the time step in the paper
+/// Viscosity that corresponds to Young's modulus and the time step in the paper.
+constexpr double kViscosity_mpa_s = 1.82 * 0.02 / 3;
 constexpr double kDensity_kg_per_m3 = 1300;
 constexpr double kDipSpeed_mm_per_s = 5;
 const Vector2d kUnknown = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -54,8 +54,8 @@ Scene scene() {
     out.thickness_mm.push_back(x > 10 && x < 25 ? 0.7 : 0.5);
   }
   out.fixed = boundary_velocities(out.mesh, out.line.pulls);
-  for (Vector2d& u : out.fixed)
-    u *= 1.2 * kDipSpeed_mm_per_s;  // 1.2 = tan(50 degrees), the pull at theta = 100 degrees
+  // The pull at theta = 100 degrees is tan(50 degrees) = 1.2.
+  for (Vector2d& u : out.fixed) u *= 1.2 * kDipSpeed_mm_per_s;
   out.quasistatic = Sheet(out.mesh, 0, out.fixed).solve(out.thickness_mm).value();
   return out;
 }
@@ -82,8 +82,8 @@ double difference(const Velocities& a, const Velocities& b) {
   return most;
 }
 
-constexpr double kGrowth_per_s =
-    0.2;  ///< relative growth of the velocities, as in a dip of some seconds
+/// Relative growth of the velocities, as in a dip of some seconds.
+constexpr double kGrowth_per_s = 0.2;
 
 /// Velocities after a step of a film without mass.
 Velocities light_step(const Scene& s, double step_s) {

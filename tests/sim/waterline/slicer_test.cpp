@@ -56,8 +56,8 @@ mesh::Model half_pipe(double radius_mm, double height_mm, int segments) {
 TEST(Slicer, CutOfABoxIsItsOutlineWithTheSolidOnTheLeft) {
   const Body body = testing::body_of(testing::box({-3, -5, 0}, {7, 5, 8}));
   const Slicer slicer(body);
-  for (const double z :
-       {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {  // some cuts are at the heights of vertices
+  // Some cuts are at the heights of vertices.
+  for (const double z : {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {
     const auto contours = slicer.cut(z);
     ASSERT_EQ(contours.size(), 1U) << z;
     EXPECT_TRUE(is_closed(contours[0]));

@@ -96,8 +96,8 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
 }
 
 TEST_F(Stages, UnusedStagesAreLeftOut) {
-  const Arguments colourless =
-      simulate({"--artifacts", "map"});  // without a texture there is no ink
+  // Without a texture there is no ink.
+  const Arguments colourless = simulate({"--artifacts", "map"});
   const Arguments patient =
       simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "10"});
   for (const Arguments& command : {colourless, patient}) {

@@ -10,8 +10,8 @@ namespace hydroprint::simulated_camera {
 namespace {
 
 constexpr std::size_t kPixels = static_cast<std::size_t>(kWidth_px) * kHeight_px;
-constexpr double kRoundingVariance =
-    1.0 / 12;  // variance of rounding to whole millimetres, in mm^2
+/// Variance of rounding to whole millimetres, in mm^2.
+constexpr double kRoundingVariance = 1.0 / 12;
 
 Depths plane(double depth_mm) { return Depths(kPixels, static_cast<float>(depth_mm)); }
 

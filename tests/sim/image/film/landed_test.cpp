@@ -57,8 +57,8 @@ TEST(Landed, ColoursPerPointMatchTheTexture) {
       continue;
     }
     const Eigen::Vector2d p = printed.surface.points[i].head<2>();
-    if (std::abs(p.x()) > 29 || std::abs(p.y()) > 19)
-      continue;  // the film image is half white at the edge
+    // The film image is half white at the edge.
+    if (std::abs(p.x()) > 29 || std::abs(p.y()) > 19) continue;
     EXPECT_NEAR(colours[i].x(), (p.x() + 30) / 60, 0.01);
     EXPECT_NEAR(colours[i].y(), (20 - p.y()) / 40, 0.01);
     EXPECT_NEAR(colours[i].z(), 128 / 255.0, 0.01);

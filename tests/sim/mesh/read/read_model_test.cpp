@@ -231,8 +231,8 @@ TEST(ReadGltf, MaterialsCoordinatesAndEmbeddedImagesAreKept) {
   const Folder folder;
   const Model m = read(folder.write("a.gltf", textured_gltf()));
   ASSERT_EQ(m.corner_uvs.size(), 4U);
-  EXPECT_EQ(m.corner_uvs[1][1],
-            Eigen::Vector2f(1, 0.75));  // v = 0.25 in the file, where v points down
+  // In the file, v is 0.25 and points down.
+  EXPECT_EQ(m.corner_uvs[1][1], Eigen::Vector2f(1, 0.75));
   const auto& material = m.materials.at(m.triangle_material.at(0));
   EXPECT_TRUE(material.has_colour);
   EXPECT_NEAR(material.colour[0], 1, 1e-6);
