@@ -59,8 +59,8 @@ TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json found = read(path("out/calibration.json"));
   const auto [off_mm, rad] = off(found["pose"], X_FO);
-  // No face of the board that faces along x is visible, so the shift along x comes from the nominal
-  // pose.
+  // The camera sees no face of the board that determines the shift along x, so this shift comes
+  // from the nominal pose.
   EXPECT_LT(off_mm.tail<2>().norm(), 0.8);
   ASSERT_EQ(found["from_nominal_pose"].size(), 1U);
   std::string along = found["from_nominal_pose"][0];

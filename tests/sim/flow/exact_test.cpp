@@ -75,8 +75,7 @@ TEST(ExactSphere, FilmIsTracedBackToItsRadius) {
   }
   EXPECT_LT(errors.rms(), 0.01);
 
-  // The map at the vertices of the mesh, and its stretch (field notes, section 6), for the same
-  // dip.
+  // The map at the vertices of the mesh, and its stretch (section 6), for the same dip.
   MapOptions options;
   options.make_tiles = false;
   options.dip_speed_mm_per_s = 4;

@@ -27,8 +27,7 @@ class BenchRig : public testing::VirtualRig {
   /// Connects, polls and enables the drive.
   void make_ready();
 
-  /// Polls every 20 ms until `done` is true for the state, and returns that state. Throws after 5
-  /// s.
+  /// Polls every 20 ms until `done` is true for the state; returns that state. Throws after 5 s.
   drive::DriveState poll_until(const std::function<bool(const drive::DriveState&)>& done);
 
   /// Another link to the same drive.

@@ -72,8 +72,8 @@ TEST(Motion, NeverExceedsItsLimitsForAnySequenceOfGoals) {
     const Kinematics next = advance(now, goal, 0.01);
     EXPECT_LE(std::abs(next.v_mm_per_s), 12 + 1e-9);
     EXPECT_LE(std::abs(next.v_mm_per_s - now.v_mm_per_s), 300 * 0.01 + 1e-9);
-    // Position is the integral of velocity. The error of the trapezoidal rule is at most a dt^2
-    // / 4.
+    // Position is the integral of velocity. The trapezoidal rule has an error of at most
+    // a dt^2 / 4.
     EXPECT_NEAR(next.x_mm - now.x_mm, 0.01 * (now.v_mm_per_s + next.v_mm_per_s) / 2,
                 300 * 1e-4 / 4 + 1e-9);
     now = next;
