@@ -100,7 +100,7 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
     }
     if (under_water) {
       EXPECT_GE(vertex[6], 0.99) << "film must not be compressed in both directions";
-      EXPECT_NEAR(vertex[5], (expected.z() + 12) / 5, 0.02) << "the water rises at 5 mm/s";
+      EXPECT_NEAR(vertex[5], (expected.z() + 12) / 5, 0.02) << "the dip speed is 5 mm/s";
     }
   }
   EXPECT_GT(ply.vertices.size(), index) << "faces of 3 mm must be subdivided";

@@ -148,7 +148,7 @@ TEST_F(Preview, SendsTheModelFirstAndThenItsLandingPoints) {
     } else if (z_mm < -0.01) {
       ++below;
       EXPECT_TRUE(std::isfinite(at[0]) && std::isfinite(at[1])) << v;
-      EXPECT_NEAR(at[2], (z_mm + 12) / 5, 0.05) << "the water rises at 5 mm/s";
+      EXPECT_NEAR(at[2], (z_mm + 12) / 5, 0.05) << "the dip speed is 5 mm/s";
       EXPECT_GT(at[3], 0.9) << v;
     }
   }
