@@ -7,9 +7,9 @@ import re
 LARGEST_ROOM = 35
 CODE = ('.h', '.cpp')
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-# These folders keep the axis safe, and their threads must not throw.
+# Rooms that must not include check.h: they keep the axis safe, and their threads must not throw.
 WITHOUT_CHECKS = ('hardware/rig', 'hardware/drive')
-# Names a class whose member is defined at the beginning of a line: "Status JobStore::start(".
+# Matches the definition of a member at the beginning of a line, and captures its class: "Status JobStore::start(".
 MEMBER = re.compile(r'^(?:[^\s#/}][^=;({}]*[\s&*])?(?:\w+::)*?(\w+)::(?:~?\w+|operator\S+)\(', re.MULTILINE)
 ROW = re.compile(r'^\| `([^`]+)` \|([^|]*)\|', re.MULTILINE)
 

@@ -1,5 +1,10 @@
+<<<<<<< HEAD
 // Measures the accuracy of poses from depth frames with all camera errors, and checks their stated
 // covariance. bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
+=======
+// Measures the accuracy of poses from depth frames with all camera errors, and of their stated
+// covariance. Usage: bench_calibrate [POSES [FRAMES]]; defaults: 200 and 60.
+>>>>>>> w-rg
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -66,7 +71,7 @@ std::vector<Body> bodies() {
   return out;
 }
 
-/// The i-th view of a board held by hand: towards each corner in turn, near and far.
+/// Pose of a handheld board in the i-th view: all over the image, near and far, differently tilted.
 Pose held(int i, std::mt19937& random) {
   const double towards = even(random, 0, 2 * pi), tilt = (i % 3) * 15 * kDegree;
   const Eigen::Vector3d about(std::cos(towards), std::sin(towards), 0);
@@ -74,7 +79,8 @@ Pose held(int i, std::mt19937& random) {
   X_CB.linear() = Eigen::AngleAxisd(tilt, about).matrix() *
                   Eigen::Vector3d(1, -1, -1).asDiagonal() *
                   Eigen::AngleAxisd(even(random, -0.2, 0.2), Eigen::Vector3d::UnitZ()).matrix();
-  const double away_mm = 520 + 90 * (i % 6), aside = 0.5 - 126 / away_mm;  // fully inside the image
+  // `aside` keeps the board inside the image.
+  const double away_mm = 520 + 90 * (i % 6), aside = 0.5 - 126 / away_mm;
   X_CB.translation() =
       away_mm * Eigen::Vector3d(aside * std::cos(2.4 * i), 0.66 * aside * std::sin(2.4 * i), 1);
   return X_CB;
@@ -103,12 +109,12 @@ Camera draw_camera(std::mt19937& random) {
       views, registration::calibration_board(), scan::Lens{}, {}, two_threads()));
   const scan::Lens::Vector off =
       out.calibration.lens.parameters() - testing::lens_of(out.truth).parameters();
-  std::fprintf(stderr, "lens: chi2 %.1f of 9, fits to %.2f sigmas\n",
+  std::fprintf(stderr, "lens: chi2 %.1f with 9 degrees of freedom, residuals %.2f sigmas rms\n",
                off.dot(out.calibration.covariance.ldlt().solve(off)), out.calibration.rms_sigmas);
   return out;
 }
 
-/// Figures of a row, collected over poses.
+/// Results of a benchmark row, collected over poses.
 struct Figures {
   std::vector<double> film_mm, film_deg, seen_mm, object_mm, object_deg, seconds;
   int film_within = 0, object_within = 0, refused = 0;
@@ -151,8 +157,13 @@ Json json_of(const Figures& f) {
           {"seconds", p95(f.seconds)}};
 }
 
+<<<<<<< HEAD
 /// Returns a basis (columns) of the twists that the scan determines. `scale` converts a twist to mm
 /// of surface motion.
+=======
+/// Orthonormal basis of the motions that the scan determines, one per column. A motion is a twist
+/// multiplied by `scale`, in mm.
+>>>>>>> w-rg
 Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6& scale) {
   const auto weak = static_cast<Eigen::Index>(fit.weak.size());
   Eigen::MatrixXd all(6, weak + 6);
@@ -166,7 +177,8 @@ Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6&
 /// 95 % quantiles of chi-square by degrees of freedom.
 constexpr std::array kSquare95{0.0, 3.841, 5.991, 7.815, 9.488, 11.070, 12.592};
 
-/// Error of a pose in the directions that the scan determines; camera frame.
+/// Error of a pose along the motions that the scan determines, in the camera frame. `square` is
+/// its squared Mahalanobis distance.
 struct Told {
   double mm = 0, deg = 0, square = 0;
   std::size_t directions = 6;
@@ -215,8 +227,13 @@ Scene draw_scene(const Body& body, const Camera& camera, std::mt19937& random) {
   return out;
 }
 
+<<<<<<< HEAD
 /// Returns the RMS error of the film coordinates of points that this camera sees around the film.
 /// The errors of film frame and lens, which are strongly correlated, partly cancel in it.
+=======
+/// RMS error of the film coordinates of points that this camera sees around the film. It combines
+/// the errors of film frame and lens, which partly cancel because they are strongly correlated.
+>>>>>>> w-rg
 double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF) {
   const scan::Lens truth = testing::lens_of(camera.truth);
   double squares = 0, count = 0;
@@ -235,7 +252,11 @@ double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF)
   return std::sqrt(squares / count);
 }
 
+<<<<<<< HEAD
 /// The result of a calibration from frames; without values if it is refused.
+=======
+/// Result of a calibration; frame and pose are empty if they were not found.
+>>>>>>> w-rg
 struct Outcome {
   std::optional<registration::FilmFrame> frame;
   std::optional<registration::ObjectPose> pose;

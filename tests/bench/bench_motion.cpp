@@ -27,7 +27,7 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 
 constexpr int kTries = 40;
-constexpr int kCores = 2;  // as in tests/bench/run
+constexpr int kCores = 2;  // tests/bench/run uses two cores
 constexpr int kJobs = 400;
 constexpr double kSpeed_mm_per_s = 10;
 constexpr double kDipSpeed_mm_per_s = 5;
@@ -66,7 +66,7 @@ class Bench {
  public:
   explicit Bench(std::string mode) : mode_(std::move(mode)) { client_.make_ready(); }
 
-  /// Keeps a simulation running on every core until the end; returns once they run.
+  /// Queues enough simulations to occupy every core until the end, and waits until they run.
   void make_busy(const std::string& model_path);
   void run();
 
@@ -156,7 +156,7 @@ void Bench::take_latencies() {
   for (int i = 0; i < kTries; ++i) {
     const bool is_high = drive_.position_mm() < (kHigh_mm + kLow_mm) / 2;
     commands.push_back(command_to_motion(is_high ? kLow_mm : kHigh_mm));
-    // Out of step with the daemon's polls.
+    // The delay varies, so that stops come at different times between two polls of the daemon.
     std::this_thread::sleep_for(milliseconds(60 + 7 * (i % 13)));
     stops.push_back(stop_to_standstill());
     if (!client_.becomes(v1::Rig::IDLE)) throw std::runtime_error("the rig did not become IDLE");

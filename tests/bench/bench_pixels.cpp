@@ -1,7 +1,7 @@
 // Compares the fast pixel map (the tiles of the film image) with one particle per pixel. See
 // README.md.
 //
-// usage: bench_pixels BODY PIXELS
+// Usage: bench_pixels BODY PIXELS
 #include <Eigen/Geometry>
 #include <cmath>
 #include <cstdio>
@@ -25,19 +25,23 @@ using flow::reference::PixelError;
 using flow::reference::PixelMap;
 
 constexpr double kDpi = 600;
-constexpr double kTolerance_mm = 0.04;
-constexpr double kStep_mm = 0.1;      ///< step of the particles in depth
-constexpr double kSettled_mm = 0.01;  ///< allowed motion on the film when the step is halved
+constexpr double kTolerance_mm = 0.04;  ///< allowed error of the map, on the film
+constexpr double kStep_mm = 0.1;        ///< depth of one step of the particles
+constexpr double kSettled_mm = 0.01;    ///< allowed change on the film when kStep_mm is halved
 constexpr unsigned kSeed = 5;
-constexpr int kMostTries = 50'000'000;  ///< tries to find a pixel at a jump
+constexpr int kMostTries = 50'000'000;  ///< random pixels tried to find those at jumps
 
 struct Body {
   mesh::Model model;
   pipeline::DipOptions options;
 };
 
+<<<<<<< HEAD
 /// Returns the pose in which the model is rotated about the x axis and its bounding box is centred
 /// on the film.
+=======
+/// Pose of a model that is rotated about the x axis, with its bounding box centred on the film.
+>>>>>>> w-rg
 Pose tilted(const mesh::Model& model, double angle_rad) {
   Pose X_FO(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX()));
   Eigen::AlignedBox3d box;
@@ -75,7 +79,7 @@ void for_each(std::size_t count, Work&& work) {
   if (!done) give_up(done.error());
 }
 
-/// A dip at the default settings as used for the film image, and its reference.
+/// The pixel map of a dip at the default settings, and a reference dip for its particles.
 class Trial {
  public:
   explicit Trial(const Body& body)
@@ -88,7 +92,7 @@ class Trial {
         finer_(start_.body, reference_, kStep_mm / 2),
         comparison_(map_, start_.body, particles_) {}
 
-  /// Random pixels at which the map or a particle lands.
+  /// Compares map and particles at random pixels at which one of them lands.
   Json pixels(int count) const {
     std::mt19937 random(kSeed);
     std::vector<Pixel> chosen;
@@ -120,7 +124,7 @@ class Trial {
             {"not_counted_by_rule", ruled}};
   }
 
-  /// Random pixels at jumps of the map.
+  /// Measures the errors in the positions of jumps, at random pixels where the map jumps.
   Json jumps(int count) const {
     std::mt19937 random(kSeed);
     std::vector<Pixel> chosen;
@@ -144,8 +148,8 @@ class Trial {
       most = std::max(most, distances[i]);
       if (distances[i] > map_.grid().pitch_mm) {
         const auto film = map_.film_mm(chosen[i]);
-        std::fprintf(stderr, "jump off by %.3f mm at film (%.2f, %.2f)\n", distances[i], film.x(),
-                     film.y());
+        std::fprintf(stderr, "jump misplaced by %.3f mm at film point (%.2f, %.2f) mm\n",
+                     distances[i], film.x(), film.y());
       }
     }
     return {
@@ -156,7 +160,8 @@ class Trial {
   }
 
  private:
-  /// The same body and film with smaller steps: particles use velocities linear between waterlines.
+  /// The dip of the same body and film with smaller steps between waterlines. Particles need these
+  /// because they interpolate velocities linearly between waterlines.
   static flow::DipField reference_of(const Body& body) {
     pipeline::DipOptions close = body.options;
     close.schedule.swept_mm /= 4;
@@ -176,8 +181,10 @@ class Trial {
       const auto film = map_.film_mm(pixels[i]);
       const auto spot = map_.at(pixels[i]);
       const Eigen::Vector3d at = spot ? spot->point_mm : Eigen::Vector3d::Constant(std::nan(""));
-      std::fprintf(stderr, "film (%.2f, %.2f) off by %.3f mm; map lands at %.2f %.2f %.2f\n",
-                   film.x(), film.y(), errors[i].error_mm, at.x(), at.y(), at.z());
+      std::fprintf(
+          stderr,
+          "film point (%.2f, %.2f) mm: error %.3f mm; the map lands at (%.2f, %.2f, %.2f) mm\n",
+          film.x(), film.y(), errors[i].error_mm, at.x(), at.y(), at.z());
     }
   }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr double kSphere_mm = 40;
 constexpr double kVat_mm = 105;
 constexpr double kInner_mm = 25, kOuter_mm = 40;  ///< radii of the ring of ink
-constexpr double kEdge_mm = 1;                    ///< width of its edges
-constexpr int kRings = 8400;                      ///< rings of the one-dimensional solution
+constexpr double kEdge_mm = 1;                    ///< width of the ring's edges
+constexpr int kRings = 8400;  ///< number of film rings in the one-dimensional solution
 
 /// A twice differentiable step from 0 to 1 over a width of 1.
 double rise(double x) {
@@ -23,7 +23,7 @@ double rise(double x) {
   return t * t * t * (10 + t * (-15 + 6 * t));
 }
 
-/// The maximum amount of ink, t = 4, between two radii.
+/// Amount of ink at a radius: the maximum, t = 4, within the ring, and 0 outside.
 double ink_at(double r) {
   return ink::kMostInk * (rise((r - kInner_mm) / kEdge_mm) - rise((r - kOuter_mm) / kEdge_mm));
 }

@@ -1,5 +1,10 @@
+<<<<<<< HEAD
 // Measures the drift of the position of a camera with all its errors, moved by hand for 10 s, and
 // the error of the fused surface. bench_sweep [CAMERAS [FRAMES]]: defaults 3 and 300.
+=======
+// Moves cameras with all their errors by hand for 10 s, and measures the drift of their position
+// and the error of the fused surface. Usage: bench_sweep [CAMERAS [FRAMES]]; defaults: 3 and 300.
+>>>>>>> w-rg
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -24,7 +29,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::SweptCamera;
 
-/// Limits of the rig: within the bars, from the water up.
+/// Space of the rig in the film frame: within the bars, from just below the water up.
 const Eigen::AlignedBox3d kRig_F(Vector3d(-165, -210, -5), Vector3d(165, 210, 400));
 constexpr double kOnObject_mm = 6;  ///< points within this distance belong to the object
 constexpr double kLeastFrames = 3;
@@ -52,7 +57,7 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Figures collected over all cameras.
+/// Results of the row, collected over all cameras.
 struct Figures {
   std::vector<double> camera_mm, end_mm, end_deg, surface_mm, object_mm, seconds;
   std::size_t lost = 0, refused = 0;

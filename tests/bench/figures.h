@@ -17,7 +17,8 @@ using testing::two_threads;
 
 void print(const std::string& row, Json figures);
 
-/// Root mean square, maximum, number of points, and number of points without film.
+/// The errors as figures of a row: root mean square, maximum, number of points, and number of
+/// points without film.
 [[nodiscard]] Json json_of(const testing::Errors& errors);
 
 /// Prints the error and exits with status 1.

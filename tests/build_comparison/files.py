@@ -20,7 +20,7 @@ import tomllib
 
 from build_comparison import decode, pdf
 
-# The colours of paper and ink of each picture with text.
+# The colours (paper, ink) of pictures with text.
 VIEWS = ((250, 250, 249), (60, 64, 70))
 PLOT = ((255, 255, 255), (40, 40, 40))
 PICTURES_WITH_TEXT = {"stretch.png": VIEWS, "wrinkles.png": VIEWS, "predicted.png": VIEWS, "alignment.png": VIEWS,
@@ -32,7 +32,7 @@ MEASURED = {"total_seconds", "stage_seconds", "seconds", "peak_memory_bytes"}
 OF_THE_CALL = {"threads", "uri"}  # uri: path of the virtual rig's control socket
 WORDING = {"message", "why", "why_not", "text", "title", "caption", "paper", "method", "frame",
            "from_nominal_pose", "marks", "marks_dropped"}
-TABLES = {"where", "header", "rows"}  # wording with numbers, which may not differ, except in warnings
+TABLES = {"where", "header", "rows"}  # wording whose numbers may not differ, except in warnings
 
 
 @dataclasses.dataclass
@@ -111,7 +111,7 @@ def compare_json(old, new):
 
 
 def compare_html(old, new):
-    """Tags and the numbers of tables may not differ; other text may."""
+    """Compares two HTML pages: tags and the numbers in tables may not differ; other text may."""
     def parts(page):
         cells = re.findall(r'<td class="number">(.*?)</td>', page)
         tags = [re.sub(r' alt="[^"]*"', "", tag) for tag in re.findall(r"<[^>]*>", page)]
@@ -145,7 +145,7 @@ def is_mixture(pixel, colours):
 
 
 def compare_png(old, new, colours=None):
-    """`colours` are those of paper and ink, if the picture may contain text."""
+    """Compares two PNG files. `colours`: the colours of paper and ink, if the picture may contain text."""
     *shapes, = decode.read_png(old), decode.read_png(new)
     if shapes[0][:4] != shapes[1][:4]:
         return "size, channels or resolution differ", False

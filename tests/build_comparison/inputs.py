@@ -158,7 +158,7 @@ def measured_points(surface_map, count=150):
     _, names, vertices, _ = decode.read_ply(surface_map)
     columns = [names.index(name) for name in ("film_x", "film_y", "x", "y", "z", "stretch")]
     rows = [[vertex[column] for column in columns] for vertex in vertices]
-    landed = [row[:5] for row in rows if row[5] < 2]  # false for NaN, where the film does not reach
+    landed = [row[:5] for row in rows if row[5] < 2]  # leaves out NaN, where no film reaches
     lines = [",".join("%.6f" % x for x in landed[i * len(landed) // count]) for i in range(count)]
     return "\n".join(["film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm", *lines, ""])
 

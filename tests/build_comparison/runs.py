@@ -195,7 +195,7 @@ def bad_calls(files):
 
 
 def refusals(build, files, folder):
-    """Exit statuses and errors of bad calls."""
+    """Saves the exit statuses and errors of bad calls."""
     outcomes = {}
     for name, call in bad_calls(files).items():
         result = build.call("hydroprint-worker", *call, "--out", folder / "out", "--json")
@@ -212,7 +212,7 @@ def error_in(output):
 
 
 def simulations():
-    """Each sample at the default settings and by the other model; then, coarsely, what else a dip can be told."""
+    """Each sample at the default settings and with the Stokes model; then other options of a dip, at low resolution."""
     for kind in SAMPLES:
         yield Run(f"sample-{kind}", sample(kind), is_quick=kind in ("board", "ubend"))
     for kind in SAMPLES:
@@ -299,7 +299,7 @@ def fits():
 
 
 def all_runs():
-    """The longest first."""
+    """Yields all runs, the longest first."""
     yield Run("validate", worker("validate", lambda files: ["--quick"]))
     yield from fits()
     yield from simulations()

@@ -19,7 +19,7 @@ constexpr char kNewPassword[] = "battery staple";
 
 using Tree = std::map<std::string, std::string>;
 
-// The content of a folder, file by file.
+// The contents of all files in a folder, by relative path.
 Tree tree_of(const std::filesystem::path& folder) {
   Tree tree;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -70,8 +70,8 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   const auto file = backup();
   struct stat info {};
   ASSERT_EQ(::stat(file.c_str(), &info), 0);
-  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it contains all users' data
-  simulate("later");                      // the daemon kept running
+  EXPECT_EQ(info.st_mode & 0777, 0600U);  // the backup contains all users' data
+  simulate("later");                      // the daemon still accepts jobs
   const Outcome restored = admin({"restore", file}, elsewhere());
   ASSERT_EQ(restored.status, 0) << restored.err;
   EXPECT_NE(restored.out.find("restored 1 jobs and "), std::string::npos) << restored.out;
@@ -94,7 +94,8 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   EXPECT_FALSE(reader.jobs->GetJob(reader.context().get(), later, &none).ok());
   v1::ListSessionsResponse sessions;
   ASSERT_TRUE(reader.people->ListSessions(reader.context().get(), {}, &sessions).ok());
-  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup are not restored
+  // The only session is the new one: sessions of the backup are not restored.
+  EXPECT_EQ(sessions.sessions_size(), 1);
   EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
 }
 
@@ -149,13 +150,14 @@ TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
   EXPECT_EQ(refused.status, 3) << refused.err;
   EXPECT_EQ(content(file), "precious");
   EXPECT_NE(admin({"backup", "/nowhere/backup.tar"}).status, 0);
-  EXPECT_EQ(admin({"backup", folder_.path() / "x.tar"}, other_.path()).status, 3);  // no store
+  // other_ contains no store.
+  EXPECT_EQ(admin({"backup", folder_.path() / "x.tar"}, other_.path()).status, 3);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar.part"));
   EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
 }
 
-/// A file system of the given size in KiB, mounted while this object lives.
+/// A file system of the given size in KiB, mounted during the life of this object.
 class SmallDisk {
  public:
   SmallDisk(std::filesystem::path path, int kib) : path_(std::move(path)) {
@@ -193,7 +195,8 @@ TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
     const Outcome ended = admin({"restore", good}, small / "state");
     const Tree left = tree_of(small / "state");
     EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
-    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // otherwise only the lock
+    // A failed restore leaves only the lock file.
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;
     ++(ended.status == 0 ? restores : refused);
   }
   EXPECT_GT(backups, 0);
@@ -271,7 +274,7 @@ TEST_F(AdminCli, AnArchiveWithPathsOutsideTheFolderIsRefused) {
     const Outcome refused = admin({"restore", file}, elsewhere());
     EXPECT_EQ(refused.status, 3) << name;
     EXPECT_NE(refused.err.find("which is not part of a backup"), std::string::npos) << refused.err;
-    EXPECT_EQ(tree_of(other_.path()).size(), 1U) << name;  // the lock
+    EXPECT_EQ(tree_of(other_.path()).size(), 1U) << name;  // only the lock file
   }
   EXPECT_FALSE(std::filesystem::exists("/tmp/hydroprint-evil"));
   const auto folder = folder_.path() / "links";
@@ -297,7 +300,7 @@ TEST(Archive, NamesAndContentsAreRestored) {
       const auto done = out->add(name, bytes);
       ASSERT_TRUE(done) << done.error().message;
     }
-    EXPECT_FALSE(std::filesystem::exists(file));  // before it is complete
+    EXPECT_FALSE(std::filesystem::exists(file));  // the file appears only when it is complete
     ASSERT_TRUE(out->finish());
   }
   std::map<std::string, std::string> read;
@@ -323,7 +326,7 @@ TEST_F(AdminCli, NoDaemonStartsAfterAnInterruptedRestoreUntilItIsRepeated) {
   EXPECT_EQ(refused.status, 4) << refused.words;
   EXPECT_NE(refused.words.find("do it again"), std::string::npos) << refused.words;
   EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
-  // it may replace the result of an incomplete restore
+  // a repeated restore may replace what the interrupted one left
   ASSERT_EQ(admin({"restore", file}).status, 0);
   daemon_.start();
   log_in("ann");
@@ -352,7 +355,7 @@ TEST_F(AdminCli, ANewPasswordEndsSessionsAtOnceEvenWhileTheDaemonRuns) {
   EXPECT_EQ(entries[0].at("object"), "users/ann");
   EXPECT_EQ(entries[0].at("via"), "command line");
   daemon_.kill();
-  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // works without the daemon, too
+  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // also works without a running daemon
   daemon_.start();
   log_in("ann");
 }
@@ -376,7 +379,7 @@ TEST_F(AdminCli, WrongPasswordsAndUsersAreRefused) {
   EXPECT_EQ(reset(std::string(1001, 'x') + "\n").status, 3);
   EXPECT_EQ(admin({"sign-in-link", "nobody"}).status, 3);
   EXPECT_EQ(client({"admin", "sign-in-link", "ann", "--state-dir", "/nowhere"}).status, 3);
-  log_in("ann");  // nothing has changed
+  log_in("ann");  // the password is unchanged
 }
 
 TEST_F(AdminCli, ALinkSignsInOnce) {

@@ -25,7 +25,7 @@ using nlohmann::json;
 
 constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
 
-/// Joins the lines of a text.
+/// Returns a text as one line, with single spaces between words.
 std::string flowing(const std::string& text) {
   std::istringstream words(text);
   std::string out;
@@ -50,8 +50,8 @@ class Cli : public ::testing::Test {
     return hydroprint::testing::run(command(arguments));
   }
 
-  /// Returns the output of --json; fails the test unless the exit status is 0 and it is one JSON
-  /// value.
+  /// Returns the output of --json. Fails the test unless the exit status is 0 and the output is one
+  /// JSON value.
   json client_json(Arguments arguments) const {
     arguments.emplace_back("--json");
     const Outcome ended = client(arguments);
@@ -72,7 +72,7 @@ class Cli : public ::testing::Test {
     return client_json({"show", job}).at("state");
   }
 
-  /// The output of `watch` for a job from before its start to its end.
+  /// Starts `watch` for a queued job, lets the job run, and returns the output at its end.
   Outcome watch_whole(const Arguments& flags) const {
     client({"queue", "pause"});
     Arguments arguments{"watch", submit("sleep 5")};
@@ -83,7 +83,7 @@ class Cli : public ::testing::Test {
     return watch.wait();
   }
 
-  /// Waits up to ten seconds until the job has that state.
+  /// Waits until the job has that state; false after 10 s.
   bool becomes(const std::string& job, const std::string& state) const {
     for (int i = 0; i < 100; ++i) {
       if (state_of(job) == state) return true;
@@ -383,7 +383,7 @@ TEST_F(Cli, ConnectsToADaemonThatStartsAMomentLater) {
   EXPECT_EQ(daemon_->terminate(), 0);
   Process early({kClient, "--server", address, "status"});
   Process watch({kClient, "--server", address, "watch", "jobs/1"});
-  // the first attempt has failed by then
+  // by now the first attempt to connect has failed
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
   Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--http", "127.0.0.1:0",
                   "--state-dir", (folder_.path() / "another").string()});
@@ -476,7 +476,7 @@ TEST_F(CliDownload, ResumesWhereItStopped) {
 TEST_F(CliDownload, NeverCreatesAFileWithWrongBytes) {
   std::ofstream(part_) << "FILM";
   const Outcome ended = download();
-  EXPECT_EQ(ended.status, 4) << "damaged bytes are not bad input";
+  EXPECT_EQ(ended.status, 4) << "a damaged download is not an input error";
   EXPECT_NE(ended.err.find("SHA-256"), std::string::npos) << ended.err;
   EXPECT_FALSE(std::filesystem::exists(out() / "film.png"));
   EXPECT_EQ(download().status, 0) << "a second attempt starts over";
@@ -554,7 +554,7 @@ TEST_F(Cli, TheGlobeIsSimulatedAndPrinted) {
   EXPECT_EQ(printed.at("printImage").at("simulateJob"), "jobs/1");
   const std::string pdf = content(paper + "/print.pdf");
   EXPECT_TRUE(pdf.starts_with("%PDF"));
-  // A reprint, computed again; and from the file, by hand.
+  // The same PDF results from a retry and from the downloaded film image.
   ASSERT_EQ(client({"retry", "2"}).status, 0);
   ASSERT_EQ(client({"watch", "3"}).status, 0);
   ASSERT_EQ(client({"download", "3", "print.pdf", "--out", paper + "/again"}).status, 0);
@@ -601,7 +601,7 @@ TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
-/// Frames as written by hydroprint-capture, for the fake worker.
+/// Fixture with a folder of frames like those of hydroprint-capture, for the fake worker.
 class CalibrateCli : public Cli {
  protected:
   CalibrateCli() {

@@ -64,7 +64,7 @@ TEST_F(DipCli, GuidesThroughEveryStep) {
   ASSERT_TRUE(programs_.rests());
   const double contact_mm = programs_.rig.position_mm();
   EXPECT_GT(contact_mm, 8.5);
-  // The daemon may not have seen the standstill yet.
+  // Confirms repeatedly, because the daemon may not have seen the standstill yet.
   ASSERT_TRUE(wait_until([&] {
     dip_at.type("\n");
     return dip_at.shows("CLEAR:", 300ms);
@@ -150,7 +150,7 @@ TEST_F(DipCli, StepsAreConfirmedOneByOne) {
   EXPECT_NE(right.out.find("then: hydroprint confirm " + job + " LOAD_OBJECT"), std::string::npos)
       << right.out;
   EXPECT_EQ(programs_.client({"confirm", job, "PRINT_FILM"}).status, 0)
-      << "repeating is not an error";
+      << "repeating a confirmation is not an error";
   EXPECT_EQ(step_of(job), "LOAD_OBJECT");
   EXPECT_EQ(programs_.client({"confirm", job, "ACTIVATE"}).status, 2)
       << "not confirmed by the operator";
@@ -187,7 +187,7 @@ TEST_F(DipCli, TheAcquiredLeaseIsReleased) {
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"));
   create();
   EXPECT_EQ(programs_.client_json({"rig", "status"}).at("lease").at("holder"), "tester")
-      << "its steps must be confirmed";
+      << "the open dip needs the lease, because its steps must be confirmed";
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
   const json report = json::parse(std::ifstream(out() / "report.json"));
   EXPECT_EQ(report["lost_cross_points"], 0);
   const json& errors = report["errors"];
-  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "both dips are the same";
+  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "both dips are identical";
   EXPECT_LT(errors["placement"]["p95_mm"], 2) << ended.out;
   EXPECT_GT(errors["placement"]["p95_mm"], errors["numerics"]["p95_mm"]);
   const json& round = report["rounds"][0];
@@ -87,7 +87,7 @@ TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
   };
   const auto picture = folder.path() / "depth.png";
   hydroprint::testing::Ended looked;
-  ASSERT_TRUE(wait_until(  // it is starting
+  ASSERT_TRUE(wait_until(  // the camera may still be starting
       [&] {
         return (looked = ask({"--out", picture.string(), "--json"})).status == 0;
       }))

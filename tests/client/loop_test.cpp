@@ -16,7 +16,7 @@
 namespace hydroprint::loop {
 namespace {
 
-/// A flat face whose film comes from directly below, shifted by `off`.
+/// A flat face. Each of its points gets film from directly below it, shifted by `off`.
 SurfaceMap flat(const Eigen::Vector2d& off) {
   constexpr int kSide = 13;
   SurfaceMap out;
@@ -45,7 +45,7 @@ TEST(Loop, ErrorsAreTheDisplacementsOfCrossPoints) {
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, well)), 0, 1e-12);
   const CrossErrors aside = cross_errors(kBoard, plan, flat({0.3, -0.4}), well);
   EXPECT_NEAR(quantile(lengths_mm(aside), 0.5), 0.5, 1e-9);
-  EXPECT_EQ(lost(aside), 25) << "those at two edges miss the face";
+  EXPECT_EQ(lost(aside), 25) << "the points at two edges miss the face";
   Truth off;
   off.printer_scale = 0.999;
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, off)), 0.001 * std::hypot(60, 60), 1e-9);
@@ -84,7 +84,7 @@ TEST(Loop, DrawsAreWithinTheirBoundsAndReproducible) {
       EXPECT_LE(truth.film_mm.norm(), kMostFilm_mm + 1e-9);
       EXPECT_LE(std::abs(truth.printer_scale - 1), kMostScale);
       if (body.is_round) {
-        EXPECT_TRUE(off.isIdentity(1e-9)) << "a scan cannot measure its rotation";
+        EXPECT_TRUE(off.isIdentity(1e-9)) << "a scan cannot measure the rotation of a round body";
       }
       EXPECT_NEAR(height_mm(body, truth, 300) - height_mm(body, truth, 200), 100, 1e-9);
       const Pose there = pose_at_contact(body, truth, 200);
@@ -132,7 +132,7 @@ TEST(Loop, TheBoardIsFullyInViewOfTheCamera) {
   constexpr double kFocal_px = 580;
   for (int i = 0; i < 12; ++i) {
     const Pose X_CB = held_board(1, i);
-    EXPECT_GT(-(X_CB.linear() * Eigen::Vector3d::UnitZ()).z(), 0.8) << "it faces the camera";
+    EXPECT_GT(-(X_CB.linear() * Eigen::Vector3d::UnitZ()).z(), 0.8) << "the board faces the camera";
     for (const Eigen::Vector3d& p : points) {
       const Eigen::Vector3d seen = X_CB * p;
       EXPECT_LT(std::abs(seen.x() / seen.z()), 320 / kFocal_px) << i;

@@ -30,8 +30,8 @@ class PeopleCli : public ::testing::Test {
     return options;
   }
 
-  /// A command in the test's home folder, with HYDROPRINT_SERVER and these variables
-  /// ("NAME=VALUE").
+  /// A command line that runs `hydroprint` with the test's configuration folder, HYDROPRINT_SERVER
+  /// and these variables ("NAME=VALUE").
   Arguments command(const Arguments& arguments, const Arguments& variables = {}) const {
     Arguments all{"/usr/bin/env", "-u", "HYDROPRINT_API_KEY",
                   "XDG_CONFIG_HOME=" + (folder_.path() / "config").string(),
@@ -44,7 +44,7 @@ class PeopleCli : public ::testing::Test {
   Outcome client(const Arguments& arguments, const Arguments& variables = {}) const {
     return hydroprint::testing::run(command(arguments, variables));
   }
-  /// Runs a command with these lines on standard input.
+  /// Runs `hydroprint` with these lines on standard input.
   Outcome told(const std::string& lines, const Arguments& arguments) const {
     Arguments all{"/bin/sh", "-c", "printf '%s' '" + lines + "' | \"$0\" \"$@\""};
     const Arguments rest = command(arguments);

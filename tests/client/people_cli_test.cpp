@@ -20,7 +20,7 @@ TEST_F(PeopleCli, LoginStoresAKeyThatEveryCommandUses) {
   EXPECT_EQ(content(credentials()).find(kPassword), std::string::npos);
   EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
   EXPECT_EQ(client({"list"}).status, 0);
-  // login ends its session
+  // login ends the session that it used
   EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());
 }
 
@@ -58,7 +58,7 @@ TEST_F(PeopleCli, ALinkLogsInOnce) {
   EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 0);
   EXPECT_EQ(client_json({"whoami"}).at("user"), "ann");
   EXPECT_EQ(client({"logout"}).status, 0);
-  EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 3) << "a second time";
+  EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 3) << "the link was already used";
 }
 
 TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotStored) {
@@ -162,7 +162,7 @@ TEST_F(PeopleCli, AReturningUserGetsJobsAndFilesBack) {
   add("ann", "ADMIN");
   log_in("ann");
   add("mae", "MAKER");
-  const std::string key = client_json({"keys", "add"}).at("key");  // ann's
+  const std::string key = client_json({"keys", "add"}).at("key");  // key of ann
   log_in("mae");
   const std::string mesh = folder_.write("m.obj", "mesh").string();
   ASSERT_EQ(client({"submit", "simulate", "--mesh", mesh}).status, 0);

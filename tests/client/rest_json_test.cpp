@@ -50,7 +50,7 @@ TEST_F(RestJson, AssetsAreThoseOfRest) {
   EXPECT_EQ(assets, rest("assets"));
   const json& asset = assets.at("assets").at(0);
   EXPECT_EQ(asset, rest(asset.at("name")));
-  EXPECT_EQ(asset.at("sizeBytes"), "9") << "int64 is text";
+  EXPECT_EQ(asset.at("sizeBytes"), "9") << "JSON writes int64 values as text";
 }
 
 TEST_F(RestJson, CalibrationsAreThoseOfRest) {

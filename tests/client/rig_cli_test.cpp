@@ -19,7 +19,7 @@ using hydroprint::testing::Process;
 using hydroprint::testing::Terminal;
 using nlohmann::json;
 
-constexpr double kSettled_mm = 0.1;  // the rig's arrival_mm
+constexpr double kSettled_mm = 0.1;  // arrival_mm of the rig's default configuration
 
 class RigCli : public ::testing::Test {
  protected:
@@ -40,7 +40,7 @@ class RigCli : public ::testing::Test {
     return {};
   }
 
-  /// Time until the axis is at rest, by its own clock; not above 0 if it already is.
+  /// Time until the axis is at rest, by the virtual rig's clock; 0 or negative if it already is.
   double seconds_to_rest() {
     const double begin_s = programs_.rig.now_s();
     return programs_.rig.rested_s() - begin_s;
@@ -58,7 +58,7 @@ TEST_F(RigCli, TheLeaseFileIsReadableOnlyByItsOwner) {
   EXPECT_EQ(status.st_mode & 0777, 0600U);
   ASSERT_EQ(::stat(lease_file().parent_path().c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0700U);
-  EXPECT_EQ(programs_.client({"rig", "arm"}).status, 0) << "the next command finds it";
+  EXPECT_EQ(programs_.client({"rig", "arm"}).status, 0) << "the next command uses the stored lease";
   EXPECT_EQ(programs_.client({"rig", "lease", "release"}).status, 0);
   EXPECT_TRUE(lease_file().empty());
   expect_error({"rig", "arm"}, 3, {"hydroprint rig lease acquire --purpose"});
@@ -67,7 +67,7 @@ TEST_F(RigCli, TheLeaseFileIsReadableOnlyByItsOwner) {
 TEST_F(RigCli, ARefusalNamesTheHolderAndPurposeOfTheLease) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "a mug"}, "alice");
   const json lease = programs_.client_json({"rig", "lease", "show"});
-  EXPECT_EQ(lease.at("leaseId"), "") << "it is a secret";
+  EXPECT_EQ(lease.at("leaseId"), "") << "the lease id is a secret";
   const std::vector<std::string> words{"alice", "a mug", "until 20", "lease break --reason"};
   expect_error({"rig", "lease", "acquire", "--purpose", "mine"}, 4, words);
   expect_error({"rig", "arm"}, 3, words);
@@ -101,7 +101,7 @@ TEST_F(RigCli, ArmsHomesAndMoves) {
   EXPECT_NEAR(programs_.rig.position_mm(), 12.5, kSettled_mm);
   EXPECT_EQ(one({"rig", "disarm"}).at("state"), "DISARMED");
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"))
-      << "each command released it";
+      << "each command released its lease";
 }
 
 TEST_F(RigCli, StatusPrintsTheJsonOfRest) {
@@ -199,7 +199,7 @@ TEST_F(RigCli, AJogForATimeCoversItsDistance) {
   const double begin_mm = programs_.rig.position_mm();
   EXPECT_EQ(programs_.client({"rig", "jog", "--speed", "5", "--for", "1s"}).status, 0);
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
-  // The axis continues for one message exchange with the drive, and for its ramp.
+  // After the stop, the axis moves on during one exchange of messages with the drive and its ramp.
   EXPECT_NEAR(programs_.rig.position_mm() - begin_mm, 5, 1);
 }
 

@@ -23,16 +23,16 @@ class RigPrograms {
   /// Runs the client to completion.
   hydroprint::testing::Ended client(const std::vector<std::string>& arguments,
                                     const std::string& user = "tester") const;
-  /// Returns the output of --json; fails the test unless the exit status is 0 and it is one JSON
-  /// value.
+  /// Returns the output of --json. Fails the test unless the exit status is 0 and the output is one
+  /// JSON value.
   [[nodiscard]] nlohmann::json client_json(std::vector<std::string> arguments,
                                            const std::string& user = "tester") const;
   /// Acquires the lease, arms, homes and moves to the position.
   void make_ready(double position_mm) const;
   [[nodiscard]] std::string state() const { return client_json({"rig", "status"}).at("state"); }
-  /// The folder of that user's lease.
+  /// The runtime folder (XDG_RUNTIME_DIR) of that user, which contains the lease.
   [[nodiscard]] std::filesystem::path runtime(const std::string& user = "tester") const;
-  /// Waits until the axis moves, or is at rest.
+  /// Waits until the axis moves (moves()) or is at rest (rests()).
   [[nodiscard]] bool moves() {
     return wait_until([&] { return rig.speed_mm_per_s() > 0; });
   }

@@ -86,7 +86,7 @@ TEST_F(TlsCli, CertificatesFromMakeCertificateAreTrusted) {
   const std::string made = content(out + "/ca.pem");
   const Outcome again = make();
   ASSERT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the existing authority";
+  EXPECT_EQ(content(out + "/ca.pem"), made) << "a second call uses the existing authority";
   start({{"DNS:localhost"}}, {out + "/certificate.pem", out + "/key.pem"});
   EXPECT_EQ(client({"--server", at("localhost"), "--ca", out + "/ca.pem", "list"}).status, 0);
   EXPECT_EQ(run({}, {MAKE_CERTIFICATE, "--out", out, "rig local"}).status, 1);
@@ -156,7 +156,7 @@ TEST_F(TlsCli, ThePythonExampleUsesTheStoredKey) {
   const std::string password = std::string(kSecret) + "\n";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "MAKER", "--password"}, there, password).status, 3)
-      << "there would be no admin";
+      << "the first user must be an admin";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "ADMIN", "--password"}, there, password).status, 0);
   const auto mesh = folder.write("mesh.obj", "");

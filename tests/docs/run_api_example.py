@@ -11,7 +11,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import programs  # noqa: E402
 
-ADDRESS = 'http://127.0.0.1:8080'  # in the example
+ADDRESS = 'http://127.0.0.1:8080'  # the address in the example
 
 
 def main(root, folder_of_programs):

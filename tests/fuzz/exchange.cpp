@@ -23,7 +23,7 @@ std::uint16_t word(std::uint8_t high, std::uint8_t low) {
   return static_cast<std::uint16_t>(high << 8U | low);
 }
 
-/// Maximum number of words in a request of this function.
+/// Number of words in a request, selected by `byte` within the limits of the function.
 std::size_t count_of(Function function, std::uint8_t byte) {
   if (function == Function::kWriteOne) return 1;
   const int most = is_read(function) ? drive::kMaxReadWords : drive::kMaxWriteWords;

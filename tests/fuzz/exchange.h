@@ -25,12 +25,12 @@ struct Exchange {
 };
 
 /// Encodes an exchange as an input. For written words it keeps only their number and the first one,
-/// because a reply repeats nothing else.
+/// because the reply to a write repeats nothing else.
 [[nodiscard]] Bytes input_of(const Exchange& exchange);
 /// Encodes the replies to a poll with the profile of this number as an input.
 [[nodiscard]] Bytes input_of(std::uint8_t profile, const std::vector<Bytes>& replies);
 
-/// Decodes an input without its first byte; missing bytes are 0.
+/// Decodes an input whose first byte, the kind, is already removed; missing bytes are 0.
 [[nodiscard]] Exchange exchange_of(std::span<const std::uint8_t> input);
 /// Removes the next reply from the input and returns it.
 [[nodiscard]] Bytes next_reply(std::span<const std::uint8_t>& input);

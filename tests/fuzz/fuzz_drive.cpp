@@ -20,7 +20,7 @@ using drive::Request;
 using Input = std::span<const std::uint8_t>;
 using Words = std::vector<std::uint16_t>;
 
-// Values that the profile reader accepts.
+// Limits of counts per unit that the profile reader accepts.
 constexpr double kLeastPerUnit = 1e-9;
 constexpr double kMostPerUnit = 1e9;
 
@@ -74,7 +74,8 @@ void check_error(const Request& request, const Bytes& reply, const Error& error)
   HP_EXPECT(error.metadata.at("exception") == std::to_string(reply[2]));
 }
 
-/// Words are decoded if and only if the reply is, byte for byte, the valid reply with these words.
+/// Decodes a reply. It must be accepted if and only if it is, byte for byte, the valid reply with
+/// the decoded words.
 Result<Words> decode_checked(const Request& request, const Bytes& reply) {
   auto words = decode_reply(request, reply);
   if (words) {
@@ -98,7 +99,7 @@ void try_exchange(Input input) {
   (void)decode_checked(exchange.request, exchange.reply);
 }
 
-/// A decoded number, encoded again, gives the original registers.
+/// Encoding a decoded number must give the original registers.
 void check_number(const Format& format, const Words& words) {
   const double value = drive::decode(format, words);
   HP_EXPECT(!std::isnan(value));
@@ -190,7 +191,7 @@ T take(Input& input) {
   return out;
 }
 
-/// A number that can be encoded is decoded to within half a count.
+/// A number that can be encoded must be decoded to within half a count of its value.
 void check_value(const Format& format, double value) {
   const auto words = drive::encode(format, value);
   if (!words) {

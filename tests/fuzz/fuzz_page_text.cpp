@@ -1,5 +1,5 @@
-// Any bytes as a line of text: no crash, no hang, shortened text fits, and a PDF can embed its
-// glyphs.
+// Lays out any bytes as a line of text. There must be no crash and no hang, shortened text must
+// fit, and a PDF must be able to embed the glyphs.
 #include <cstdint>
 #include <set>
 #include <string>

@@ -1,5 +1,5 @@
-// A profile is untrusted. Either it is refused with one line, or all values that are read from or
-// written to a drive with it stay within bounds.
+// A profile is untrusted. Either it is refused with a one-line error, or all values that are read
+// from or written to a drive with it stay within bounds.
 #include <cmath>
 #include <fstream>
 #include <span>

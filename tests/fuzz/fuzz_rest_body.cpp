@@ -1,5 +1,5 @@
-// Either a request body is refused with one line, or another parser also accepts it as JSON, and
-// the message can be written and read again.
+// Either a request body is refused with a one-line error, or another parser also accepts it as
+// JSON, and the message can be written and read again.
 #include <google/protobuf/util/message_differencer.h>
 
 #include <nlohmann/json.hpp>

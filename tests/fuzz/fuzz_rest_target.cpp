@@ -1,4 +1,4 @@
-// Either a request line is refused with one line, or it gives a request that can be read.
+// Either a request line is refused with a one-line error, or it gives a request that can be parsed.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -34,7 +34,7 @@ void check_refusal(const Error& error) {
   HP_EXPECT(!error.reason.empty());
 }
 
-// All its texts can be used in file names, logs and responses: UTF-8 without NUL.
+// All texts of a message can be used in file names, logs and responses: UTF-8 without NUL.
 void check_texts(const pb::Message& message) {
   const pb::Reflection& look = *message.GetReflection();
   std::vector<const pb::FieldDescriptor*> fields;

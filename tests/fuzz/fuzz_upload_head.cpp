@@ -48,7 +48,7 @@ Taken take(std::string_view bytes, std::size_t piece) {
   return taken;
 }
 
-// An invalid request may be refused earlier or later.
+// If the request is invalid, the parser may refuse it before or after it has the head.
 void expect_same(const Taken& a, const Taken& b) {
   HP_EXPECT(a.is_done == b.is_done);
   if (!a.head || !b.head) return;
@@ -80,7 +80,7 @@ void expect_fit_for_use(const http::Head& head) {
   }
   HP_EXPECT(!http::lists_tag(head.fields.find("If-None-Match").value_or(""), "\"\"") ||
             head.fields.count("If-None-Match") > 0);
-  // A field cannot start another field when it is written again.
+  // A name or value cannot begin another header field when the fields are written out again.
   for (const http::HeaderField& field : head.fields.all()) {
     HP_EXPECT(field.name.find_first_of("\r\n:") == std::string::npos);
     HP_EXPECT(field.value.find('\n') == std::string::npos);

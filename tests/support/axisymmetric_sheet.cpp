@@ -14,13 +14,13 @@
 // A uniform film without drag moves with f linear in q.
 //
 // Dip. Use the wetted area per radian W as time. The waterline's q grows with cos(theta). By
-// eq. (1), tan(theta/2) = (1 - cos(theta)) / sin(theta), the film is drawn in there with
-// f = -(1 - cos(theta)). Film is not stretched by sticking. With Q = q at rest and the area stretch
-// J = q_Q, this gives dW = J dQ for the ring Q that is sticking. No term has a pole. A ring follows
-// dq/dW = f and keeps its volume, h = h0 / J.
+// eq. (1), tan(theta/2) = (1 - cos(theta)) / sin(theta), the film there is drawn inwards with
+// f = -(1 - cos(theta)). Sticking does not stretch the film. With Q = q at rest and the area
+// stretch J = q_Q, this gives dW = J dQ for the ring Q that is sticking. No term has a pole. A ring
+// follows dq/dW = f and keeps its volume, h = h0 / J.
 //
-// Steps. The independent variable is X, the rest radius of the ring that is sticking. All stages of
-// a Runge-Kutta step over two rings then are at a ring, and no ring is ever divided:
+// Steps. The independent variable is X, the rest radius of the ring that is sticking. A Runge-Kutta
+// step covers two rings, so each of its stages is at a ring, and no ring has to be divided:
 //     dW/dX = q_X (at the waterline),   dq/dX = f q_X (at the waterline).
 
 namespace hydroprint::axisymmetric {
@@ -34,7 +34,7 @@ constexpr std::size_t kSlopeRings = 5;
 
 struct State {
   double wetted = 0;
-  std::vector<double> q;  ///< of all rings; rings that have stuck are ignored
+  std::vector<double> q;  ///< q of all rings; those of rings that have stuck are ignored
 };
 
 /// Derivative of the state with respect to X.
@@ -118,7 +118,7 @@ class Stepper {
   double width_;
   double drag_ = 0;
   State state_;
-  std::vector<double> volume_;  ///< volume per radian between a ring and the next
+  std::vector<double> volume_;  ///< film volume per radian between a ring and the next
 };
 
 /// Cubic interpolation of a quantity between two landings, `t` in [0, 1], from its values and its

@@ -39,17 +39,18 @@ struct Body {
 /// A ring of film at the moment when it sticks.
 struct Landing {
   double film_mm = 0;       ///< radius at rest
-  double waterline_mm = 0;  ///< radius now, tracked as material; ideally that of the waterline
+  double waterline_mm = 0;  ///< radius now, from the tracked film; ideally that of the waterline
   double wetted_mm2 = 0;    ///< area per radian wetted before the ring sticks
   double contact_angle_rad = 0;
   double area_stretch = 1;  ///< area now / area at rest
   double thickness_mm = 0;  ///< thickness now
 };
 
-/// A dip from first contact to the body's `end_mm2`, or until the film is nearly used up.
+/// A dip from first contact to the body's `end_mm2`, or to the point where the film is nearly used
+/// up.
 class Dip {
  public:
-  /// Divides the film into `rings` rings of equal width. The result is of second order in this
+  /// Divides the film into `rings` rings of equal width. The error is of second order in this
   /// width, or of fourth order for a uniform film without drag.
   Dip(const Film& film, const Body& body, int rings);
 
@@ -68,7 +69,8 @@ class Dip {
   std::vector<Landing> landings_;
 };
 
-/// Radius times radial velocity at rings of half squared radius `q` [mm^2], ascending. The first
+/// Radius times radial velocity at rings. `q` [mm^2] is half the squared radius of each ring,
+/// ascending. The first
 /// ring moves with `at_waterline`, and the last is clamped. `volume` [mm^3] is the film's volume
 /// between a ring and the next, per radian; `drag_per_mm` is drag / viscosity.
 [[nodiscard]] std::vector<double> flux(std::span<const double> q, std::span<const double> volume,

@@ -108,7 +108,8 @@ TEST(AxisymmetricSheet, ThereIsNoLandingPastTheEndOfTheDip) {
   EXPECT_FALSE(dip.at_wetted(sphere_wetted_mm2(kSphere, radians(92))));
 }
 
-/// Largest error of flux() against velocity `u` between the radii 20 and `kVat`.
+/// Largest difference between flux() and the exact velocity `u`, between the radii 20 mm and
+/// `kVat`.
 double flux_error(int rings, double drag_per_mm, const std::function<double(double)>& thickness,
                   const std::function<double(double)>& u) {
   const double width = (kVat - 20) / rings;
@@ -131,7 +132,7 @@ double flux_error(int rings, double drag_per_mm, const std::function<double(doub
 
 double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-// 4 (u'' + u'/r - u/r^2) = u / L^2: the lengths in the solution are 2 L.
+// The equation is 4 (u'' + u'/r - u/r^2) = u / L^2, so the length in the Bessel functions is 2 L.
 TEST(AxisymmetricSheet, DragOnAUniformFilmGivesBesselFunctions) {
   const double drag_length = 8;
   const auto first = [&](double r) { return std::cyl_bessel_i(1, r / (2 * drag_length)); };
@@ -153,7 +154,7 @@ TEST(AxisymmetricSheet, ThicknessThatIsAPowerOfTheRadiusGivesPowers) {
     for (const double s : {rising, falling}) {
       ASSERT_NEAR((m + s - 1) * (2 * s + 1) + s - 1, 0, 1e-12);
     }
-    const double mix = std::pow(kVat, falling - rising);  // at rest at the vat
+    const double mix = std::pow(kVat, falling - rising);  // so that the film is at rest at the vat
     const auto u = [&](double r) { return std::pow(r, falling) - mix * std::pow(r, rising); };
     const auto thickness = [&](double r) { return std::pow(r, m); };
     const double fine = flux_error(2000, 0, thickness, u);
@@ -185,7 +186,8 @@ class TwoParts {
   }
 
  private:
-  using Pair = std::array<double, 2>;  // radius of the seam, square of the consumed film radius
+  /// Radius of the seam, and square of the consumed film's radius.
+  using Pair = std::array<double, 2>;
 
   [[nodiscard]] Pair moved(const Pair& rate, double by) const {
     return {now_[0] + by * rate[0], now_[1] + by * rate[1]};
@@ -193,16 +195,18 @@ class TwoParts {
 
   [[nodiscard]] Pair rate(double theta, const Pair& state) const {
     const double a = kSphere * std::sin(theta);
-    const double pull = -kSphere * (1 - std::cos(theta));  // per angle: -tan(theta/2) ds
+    // Pull per unit of angle: -tan(theta/2) ds.
+    const double pull = -kSphere * (1 - std::cos(theta));
     const double seam = state[0];
     const double inner_stretch = (seam * seam - a * a) / (rest_ * rest_ - state[1]);
     const double outer_stretch = (kVat * kVat - seam * seam) / (kVat * kVat - rest_ * rest_);
-    // A and B of each part when the seam moves at `u`.
+    // A and B of the part between radii r1 and r2, which move at u1 and u2.
     const auto between = [](double r1, double u1, double r2, double u2) {
       const double slope = (u2 * r2 - u1 * r1) / (r2 * r2 - r1 * r1);
       return Pair{slope, u1 * r1 - slope * r1 * r1};
     };
-    // N_rr = 2 h (3 A - B / r^2) at the seam, inside minus outside, is linear in its velocity.
+    // N_rr = 2 h (3 A - B / r^2) at the seam, inside minus outside. It is linear in the seam's
+    // velocity.
     const auto imbalance = [&](double u) {
       const auto [a1, b1] = between(a, pull, seam, u);
       const auto [a2, b2] = between(seam, u, kVat, 0);
@@ -211,8 +215,8 @@ class TwoParts {
     };
     const double still = imbalance(0);
     const double u = still / (still - imbalance(1));
-    // The wetted area grows by R^2 sin(theta) per angle and radian, the film's squared radius by
-    // twice.
+    // Per angle and radian, the wetted area grows by R^2 sin(theta), and the squared radius of the
+    // consumed film by twice that area at rest.
     return {u, 2 * kSphere * kSphere * std::sin(theta) / inner_stretch};
   }
 
@@ -255,8 +259,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return most;
 }
 
-// The edges of the ink ring must be much wider than the rings of film. With wider rings, the
-// fourth-order parts of the error dominate.
+// The edges of the ink ring must be much wider than the rings of film. Otherwise the fourth-order
+// part of the error dominates.
 TEST(AxisymmetricSheet, MapAroundAnInkRingIsOfSecondOrderOrBetter) {
   for (const double drag_length : {0.0, 20.0}) {
     const Film film = ringed_film(drag_length);

@@ -12,8 +12,8 @@ inline int number_in_environment(const char* variable, int otherwise) {
   return text == nullptr ? otherwise : std::stoi(text);
 }
 
-/// Number of random inputs of a test: `sample` in `tests/run`, multiplied in `tests/campaign`
-/// (HYDROPRINT_ROUNDS_FACTOR).
+/// Number of random inputs of a test: `sample` in `tests/run`, and a multiple of it in
+/// `tests/campaign` (HYDROPRINT_ROUNDS_FACTOR).
 inline int campaign_rounds(int sample) {
   return sample * number_in_environment("HYDROPRINT_ROUNDS_FACTOR", 1);
 }

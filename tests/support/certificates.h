@@ -14,8 +14,9 @@ struct KeyPair {
 
 /// Requested contents of a certificate.
 struct Wanted {
-  std::vector<std::string> names{"DNS:localhost", "IP:127.0.0.1"};  ///< in OpenSSL's notation
-  int from_days = -1, to_days = 30;                                 ///< validity, from now
+  /// Alternative names, in OpenSSL's notation.
+  std::vector<std::string> names{"DNS:localhost", "IP:127.0.0.1"};
+  int from_days = -1, to_days = 30;  ///< validity, in days from now
 };
 
 /// A certificate authority for tests, which no other program trusts.
@@ -37,7 +38,7 @@ class Authority {
   std::string pem_;
 };
 
-/// The files of a daemon's certificate and key in a folder.
+/// The paths of a daemon's certificate and key files in a folder.
 struct KeyPairFiles {
   explicit KeyPairFiles(const std::filesystem::path& folder)
       : certificate(folder / "certificate.pem"), key(folder / "key.pem") {}

@@ -25,17 +25,17 @@ namespace hydroprint::testing {
 /// A rig with bodies and the camera that observes it. Film frame, mm.
 struct Rig {
   simulated_camera::Lens lens;                       ///< nominal lens
-  simulated_scene::CameraStand stand;                ///< 0.8 m away
+  simulated_scene::CameraStand stand;                ///< stand of the camera; initially 0.8 m away
   std::vector<simulated_scene::Marker> markers;      ///< actual markers; initially nominal
   std::vector<simulated_scene::MarkerState> states;  ///< states of the markers
   double gripper_mm = 150;                           ///< height of the gripper's lower end
   std::vector<simulated_scene::Body> more;           ///< additional bodies
-  bool furnished = true;                             ///< if false, there are only the bodies `more`
-  simulated_camera::Errors errors;                   ///< camera errors in frames()
+  bool furnished = true;            ///< false: the scene contains only the bodies `more`
+  simulated_camera::Errors errors;  ///< camera errors in frames()
 
   Rig();
   [[nodiscard]] Pose X_CF() const;
-  /// A frame without errors except those of the lens, and without shadows.
+  /// A frame without shadows and without errors, except the distortion of the lens.
   [[nodiscard]] scan::DepthFrame exact() const;
   /// Frames of a camera with errors, 30 per second; `seed` selects the camera, and `first` is the
   /// number of the first frame.
@@ -52,14 +52,14 @@ struct Rig {
 [[nodiscard]] simulated_scene::CameraStand stand_at(double distance_mm, double elevation_rad,
                                                     double azimuth_rad);
 
-/// Part of an image; its corner is on multiples of the noise patches.
+/// Part of an image. Its corner lies on a corner of a noise patch.
 struct Window {
   int u = 0, v = 0, width_px = 0, height_px = 0;
 };
 [[nodiscard]] scan::DepthFrame cropped(const scan::DepthFrame& frame, const Window& window);
 [[nodiscard]] scan::Lens cropped(scan::Lens lens, const Window& window);
 
-/// A body with a surface in a pose.
+/// A body with this surface, in this pose.
 [[nodiscard]] simulated_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB);
 
 /// A model's surface without subdivision.

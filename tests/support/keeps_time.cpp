@@ -1,6 +1,6 @@
-// main() of timing tests, which use drives with timeouts of 0.1 s. On a machine that stalled during
-// the test, the result means nothing. A failure therefore counts only if the machine kept time.
-// Otherwise the program prints the machine's delay and runs the tests again.
+// main() of timing tests, which use drives with timeouts of 0.1 s. If the machine stalls during a
+// test, a failure means nothing. The program then prints the delay and runs the tests again. A
+// failure counts only if the machine kept time, or in the third try.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -22,12 +22,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTry = "HYDROPRINT_TEST_TRY";
 constexpr int kTries = 3;
-// Less than the tolerance of any of these tests.
+// Largest delay of a machine that keeps time; less than the tolerance of any of these tests.
 constexpr double kTolerated_s = 0.02;
 constexpr int kWatchedProcessors = 8;
 constexpr std::chrono::milliseconds kInterval{2};
 
-/// Measures the largest delay of many short sleeps, on each of the first processors.
+/// Measures the largest delay of many short sleeps, on up to kWatchedProcessors processors.
 class DelayMeter {
  public:
   DelayMeter() {

@@ -37,7 +37,7 @@ Process::Process(std::vector<std::string> arguments, const ProcessOptions& optio
   for (const auto& [number, path] : options.files) open_as(number, path.c_str());
   for (const auto& [number, ours] : options.inherited) {
     ::dup2(ours, number);
-    ::fcntl(number, F_SETFD, 0);  // dup2 onto itself would keep close-on-exec
+    ::fcntl(number, F_SETFD, 0);  // if ours == number, dup2 keeps close-on-exec
   }
   for (const auto& [resource, value] : options.limits) {
     const rlimit limit{value, value};

@@ -25,7 +25,7 @@ struct Ended {
 struct ProcessOptions {
   std::vector<std::pair<__rlimit_resource_t, rlim_t>> limits;
   bool close_stdout = false;
-  /// Files that are open for writing in the program, by descriptor.
+  /// Files that the program finds open for appending: {descriptor, path}.
   std::vector<std::pair<int, std::filesystem::path>> files;
   /// Inherited descriptors: {descriptor in the program, descriptor in this process}.
   std::vector<std::pair<int, int>> inherited;
@@ -42,9 +42,9 @@ class Process {
   [[nodiscard]] pid_t pid() const { return pid_; }
   void signal(int number) const;
   [[nodiscard]] bool running();
-  /// Its output so far.
+  /// Standard output of the program so far.
   [[nodiscard]] std::string out() const;
-  /// Waits until it has ended.
+  /// Waits until the program has ended.
   Ended wait();
 
  private:

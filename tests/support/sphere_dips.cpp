@@ -71,7 +71,7 @@ Errors errors_to(double theta_deg, const mesh::Surface& surface,
 
 Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions options,
                              const Context& context) {
-  // The residual of the sheet's sweeps does not depend on the mesh.
+  // Small, because the residual of the sheet's sweeps does not decrease with the mesh size.
   options.sheet.tolerance_mm = 1e-4;
   options.sheet.most_sweeps = 20;
   const auto with_mesh = [&](double factor) {

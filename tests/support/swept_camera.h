@@ -27,11 +27,11 @@ class SweptCamera {
   /// The depth frame at that pose.
   [[nodiscard]] scan::DepthFrame frame(int frame) const;
   [[nodiscard]] std::vector<scan::DepthFrame> frames(int count) const;
-  /// The whole scene.
+  /// The surface of the whole scene.
   [[nodiscard]] const mesh::Surface& scene() const { return scene_; }
 
-  /// The nominal path, repeated every 10 s: from 0.8 m before the film to the left, above and to
-  /// the right.
+  /// The nominal path, repeated every 10 s: from a place 0.8 m in front of the film to its left,
+  /// above it and to its right.
   simulated_scene::CameraStand stand;
 
  private:
@@ -42,7 +42,7 @@ class SweptCamera {
   std::unique_ptr<simulated_camera::Renderer> renderer_;
 };
 
-/// The depth frame of a camera that faces a wall.
+/// The depth frame of a camera that faces a wall at this depth.
 [[nodiscard]] scan::DepthFrame wall_frame(float depth_mm);
 
 }  // namespace hydroprint::testing

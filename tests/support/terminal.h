@@ -22,7 +22,7 @@ class Terminal {
   /// Repeats a key, as a keyboard does while the key is held.
   void hold(const std::string& key, std::chrono::milliseconds time,
             std::chrono::milliseconds repeat = std::chrono::milliseconds(30));
-  /// Waits until `words` appear after the previously found words; false after `limit`.
+  /// Waits until `words` appear after the words found by the previous call; false after `limit`.
   [[nodiscard]] bool shows(const std::string& words,
                            std::chrono::milliseconds limit = std::chrono::seconds(20));
   /// Waits for the program to end. Returns its exit status, or -1 after `limit`.

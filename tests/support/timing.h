@@ -21,7 +21,7 @@ double seconds_of(const Call& call) {
   return seconds_since(start);
 }
 
-/// Polls; false if `until` did not become true in time.
+/// Polls `until`; false if it did not become true within `seconds`.
 [[nodiscard]] inline bool wait_until(const std::function<bool()>& until, double seconds = 10,
                                      double poll_every_s = 0.005) {
   const auto start = Clock::now();

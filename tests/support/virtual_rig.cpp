@@ -36,7 +36,7 @@ std::vector<std::string> command(const VirtualRigOptions& options, const Tempora
   return out;
 }
 
-/// Sends text to a socket and returns everything that comes back; empty if nothing answers.
+/// Sends text to a socket and returns the whole reply; empty if nothing replies.
 std::string reply_of(const std::string& path, const std::string& text) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -61,7 +61,7 @@ VirtualRig::VirtualRig(const VirtualRigOptions& options)
     : profile_(options.profile), process_(command(options, folder_)) {
   const auto is_ready = [&] { return process_.out().ends_with('\n'); };
   (void)wait_until([&] { return is_ready() || !process_.running(); }, kPatience_s);
-  if (!is_ready()) throw std::runtime_error("hydroprint-virtual-rig did not get ready");
+  if (!is_ready()) throw std::runtime_error("hydroprint-virtual-rig did not become ready");
   address_ = nlohmann::json::parse(process_.out()).at(options.wire);
 }
 
@@ -83,7 +83,7 @@ bool VirtualRig::gets_to(double wanted, double seconds) const {
 
 double VirtualRig::rested_s() const {
   if (!wait_until([&] { return speed_mm_per_s() == 0; })) {
-    throw std::runtime_error("the axis keeps moving");
+    throw std::runtime_error("the axis did not come to rest within the time limit");
   }
   return truth().at("rested_s");
 }

@@ -13,7 +13,7 @@ namespace hydroprint::testing {
 struct VirtualRigOptions {
   double start_mm = 1;                                        ///< axis position at the start
   std::string wire = "tcp";                                   ///< "tcp" or "rtu"
-  std::string profile = HYDROPRINT_PROFILES "/virtual.toml";  ///< of the simulated drive
+  std::string profile = HYDROPRINT_PROFILES "/virtual.toml";  ///< profile of the simulated drive
   std::string scene = {};                                     ///< further lines of the scene file
   /// Names and contents of files that the scene uses.
   std::vector<std::pair<std::string, std::string>> files = {};
@@ -26,24 +26,26 @@ class VirtualRig {
   /// Waits until the rig is ready. Throws if it does not start.
   explicit VirtualRig(const VirtualRigOptions& options = {});
 
-  /// Sends lines to the control socket and returns the replies. Throws if the first is an error.
+  /// Sends lines to the control socket and returns the replies. Throws if the first reply is an
+  /// error.
   std::string act(const std::string& lines) const;
 
-  /// The true state of the drive, whatever it reports.
+  /// The true state of the drive, which may differ from the state that it reports.
   [[nodiscard]] nlohmann::json truth() const;
   [[nodiscard]] std::string mode() const { return truth().at("mode"); }
   [[nodiscard]] double position_mm() const { return truth().at("position_mm"); }
   [[nodiscard]] double speed_mm_per_s() const;
-  /// Whether it moves that fast, or is at rest.
+  /// Waits until the axis has this speed (0: is at rest); false after `seconds`.
   [[nodiscard]] bool gets_to(double speed_mm_per_s, double seconds = 10) const;
-  /// Time of the drive's own clock, which does not depend on when a test reads it.
+  /// Present time of the drive's own clock, in s. rested_s() uses the same clock.
   [[nodiscard]] double now_s() const { return truth().at("time_s"); }
-  /// Waits for standstill and returns its time on that clock. Throws if the drive keeps moving.
+  /// Waits for standstill and returns the time, on that clock, at which the axis came to rest.
+  /// Throws if the axis keeps moving.
   [[nodiscard]] double rested_s() const;
 
   /// The drive's address: "tcp:127.0.0.1:40123" or "rtu:/tmp/...".
   [[nodiscard]] const std::string& address() const { return address_; }
-  /// Lines of a daemon's configuration that refer to it.
+  /// Section of a daemon's configuration file for this rig.
   [[nodiscard]] std::string section() const;
   [[nodiscard]] std::filesystem::path control() const { return folder() / "control"; }
   /// OpenNI2's name of the camera.

@@ -1,5 +1,5 @@
-// Captures with the virtual rig's camera and hydroprint-capture, and the life of calibrations. The
-// worker is the fake one.
+// Captures with the virtual rig's camera and hydroprint-capture; how calibrations are
+// stored, activated and become stale. The worker is the fake one.
 #include <signal.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// The frames.json files of a spec.
+/// The frames.json files that a spec refers to.
 std::set<std::string> frame_listings(const nlohmann::json& spec) {
   std::set<std::string> out;
   for (const auto& file : spec.at("frames")) {
@@ -44,7 +44,8 @@ class CalibrateApi : public CameraTest {
     EXPECT_EQ(all().front().job(), job.name());
     return all().front();
   }
-  /// Same as above, with the rig homed and the axis at the capture position.
+  /// Homes the rig, captures at the capture position, and returns the calibration from this
+  /// capture.
   v1::Calibration calibrated() {
     ann->make_ready();
     ann->go_to(kAxis_mm);
@@ -91,7 +92,7 @@ TEST_F(CalibrateApi, CameraFaultsAreNamed) {
   EXPECT_EQ(reason("camera gone", true), "CAMERA_GONE");
   EXPECT_EQ(reason("camera frozen", true), "CAMERA_FROZEN");
   EXPECT_EQ(reason("camera black", true), "CAMERA_BLACK");
-  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "captures work again";
+  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "the camera works again";
 }
 
 TEST_F(CalibrateApi, HangingCameraFailsTheCapture) {
@@ -106,7 +107,7 @@ TEST_F(CalibrateApi, CapturesRunOneAtATimeAndCanBeCancelled) {
   const v1::Job job = create(capture_of(20));
   EXPECT_EQ(job.state(), v1::Job::RUNNING);
   EXPECT_EQ(refusal(capture_of(1)).reason(), "STATE_FORBIDS");
-  EXPECT_EQ(ann->queue().running_jobs_size(), 0) << "it occupies no worker";
+  EXPECT_EQ(ann->queue().running_jobs_size(), 0) << "a capture occupies no worker";
   ann->wait(job.name(), [](const v1::Job& now) { return now.progress_fraction() > 0; });
   ann->cancel(job.name());
   EXPECT_EQ(done(job).state(), v1::Job::CANCELLED);
@@ -184,7 +185,7 @@ TEST_F(CalibrateApi, CalibrationOutlivesTheDaemonAndItsCapture) {
   retry.set_name(found.job());
   v1::Job again;
   ASSERT_TRUE(ann->jobs->RetryJob(ann->context().get(), retry, &again).ok());
-  EXPECT_EQ(done(again).state(), v1::Job::SUCCEEDED) << "its frames still exist";
+  EXPECT_EQ(done(again).state(), v1::Job::SUCCEEDED) << "the frames of the capture still exist";
   EXPECT_EQ(all().size(), 2U);
 }
 
@@ -208,7 +209,7 @@ TEST_F(CalibrateApi, FailedOrOtherJobsLeaveNoCalibration) {
   daemon->start();
   connect();
   EXPECT_EQ(all().size(), 0U);
-  EXPECT_EQ(done(lost).state(), v1::Job::SUCCEEDED) << "queued again";
+  EXPECT_EQ(done(lost).state(), v1::Job::SUCCEEDED) << "the interrupted job is queued again";
   EXPECT_EQ(all().size(), 1U);
 }
 
@@ -231,11 +232,12 @@ TEST_F(CalibrateApi, ActiveLensIsTheDefault) {
   EXPECT_TRUE(get(lens.name()).active()) << "each kind has its own active calibration";
   v1::Job other = calibrate_of(capture, kMesh);
   other.mutable_calibrate()->set_camera_calibration(found.name());
-  EXPECT_EQ(refusal(other).reason(), "SPEC_INVALID") << "not a lens calibration";
+  EXPECT_EQ(refusal(other).reason(), "SPEC_INVALID")
+      << "a calibration of an object is not one of a lens";
   other.mutable_calibrate()->set_camera_calibration("calibrations/99");
   EXPECT_EQ(refusal(other).reason(), "CALIBRATION_MISSING");
   EXPECT_EQ(refusal(simulate_by(lens.name())).reason(), "SPEC_INVALID")
-      << "not the calibration of an object";
+      << "a calibration of a lens is not one of an object";
 }
 
 TEST_F(CalibrateApi, SimulateUsesPoseFilmAndScaleOfTheCalibration) {
@@ -277,7 +279,7 @@ TEST_F(CalibrateApi, StaleCalibrationIsRefusedUnlessAllowed) {
   wanted.mutable_simulate()->set_allow_stale_calibration(true);
   EXPECT_EQ(refusal(wanted).reason(), "");
   ann->go_to(kAxis_mm);
-  EXPECT_EQ(get(found.name()).stale_size(), 0) << "the axis is back in place";
+  EXPECT_EQ(get(found.name()).stale_size(), 0) << "the axis is back at its position";
   ASSERT_TRUE(ann->home().ok());
   ASSERT_TRUE(ann->becomes(v1::Rig::IDLE, 30));
   ann->go_to(kAxis_mm);
@@ -320,7 +322,7 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   EXPECT_TRUE(has(told.dip_status().warnings(0), "dipped")) << told.ShortDebugString();
   const v1::Job looks = ann->guide_to(told.name(), v1::DipStatus::FIND_CONTACT);
   EXPECT_TRUE(has(looks.dip_status().instruction(), "jog down"))
-      << "the operator has to find first contact";
+      << "with a stale calibration, the operator has to find first contact";
   ann->cancel(told.name());
 }
 
@@ -350,7 +352,7 @@ TEST_F(CalibrateApi, CalibrationCanBeEnteredByHand) {
   const auto enter = [&] {
     return calibrations->CreateCalibration(ann->context().get(), request, &made);
   };
-  EXPECT_EQ(reason_of(enter()), "SPEC_INVALID") << "without a pose";
+  EXPECT_EQ(reason_of(enter()), "SPEC_INVALID") << "a calibration without a pose is refused";
   for (const double x : {1.0, 0.0, 0.0, 0.0}) entered.mutable_pose()->add_rotation_wxyz(x);
   for (const double x : {1.0, 2.0, 0.0}) entered.mutable_pose()->add_translation_mm(x);
   ASSERT_TRUE(enter().ok());

@@ -64,7 +64,7 @@ class CalibrateReal : public CameraTest {
     lens = ann->upload(calibrate::camera_json(camera));
   }
 
-  /// Waits for the end of a job without a timeout.
+  /// Waits for the end of a job, without a time limit.
   v1::Job ended(const v1::Job& job) {
     for (;;) {
       const v1::Job now = ann->job(job.name());
@@ -121,7 +121,8 @@ TEST_F(CalibrateReal, PoseOfTheObjectIsFound) {
   for (const auto& marker : found.markers()) EXPECT_TRUE(marker.used()) << marker.why_not();
   EXPECT_LT(found.error_p95_mm(), 2);
   EXPECT_EQ(found.from_nominal_pose_size(), 0) << found.from_nominal_pose(0);
-  EXPECT_NEAR(found.contact_mm(), found.axis_mm() + lowest_mm, 2) << "first contact";
+  EXPECT_NEAR(found.contact_mm(), found.axis_mm() + lowest_mm, 2)
+      << "axis position at first contact";
   EXPECT_EQ(ann->download(found.picture()).substr(1, 3), "PNG");
 
   const v1::Calibration again = calibrated(later);

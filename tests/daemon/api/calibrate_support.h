@@ -30,7 +30,7 @@ class CameraTest : public ::testing::Test {
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     connect();
   }
-  /// Also connects to a restarted daemon.
+  /// Connects to the daemon; needed again after a restart.
   void connect() {
     ann = std::make_unique<RigClient>(daemon->address(), "ann");
     calibrations = v1::CalibrationService::NewStub(ann->channel);
@@ -45,7 +45,7 @@ class CameraTest : public ::testing::Test {
     EXPECT_TRUE(status.ok()) << status.error_message();
     return job;
   }
-  /// Why a job is refused; "" if it is accepted.
+  /// Details of the error with which a job is refused; empty if it is accepted.
   google::rpc::ErrorInfo refusal(const v1::Job& wanted) {
     v1::CreateJobRequest request;
     *request.mutable_job() = wanted;
@@ -96,7 +96,7 @@ class CameraTest : public ::testing::Test {
     return ann->download(job.name() + "/artifacts/" + name);
   }
 
-  double water_mm = 90;  ///< axis position with the gripper at the water
+  double water_mm = 90;  ///< axis position at which the gripper touches the water
   TemporaryFolder folder;
   std::unique_ptr<VirtualRig> rig;
   std::unique_ptr<DaemonProcess> daemon;

@@ -21,7 +21,8 @@ using auth::Role;
 using std::chrono::seconds;
 constexpr std::size_t kPiece_bytes = 100'000;
 
-/// Reports its caller. Pausing fails with a reason; without one it waits until it is cancelled.
+/// Reports the caller as the pause reason. PauseQueue fails if the request has a reason; otherwise
+/// it waits until the call is cancelled.
 class Queue final : public v1::QueueService::Service {
  public:
   grpc::Status GetQueue(grpc::ServerContext* context, const v1::GetQueueRequest*,
@@ -47,7 +48,7 @@ class Queue final : public v1::QueueService::Service {
   std::atomic<bool> was_cancelled = false;
 };
 
-/// Counts the bytes of an upload; ends early after one piece if the upload is named "short".
+/// Counts the bytes of an upload. Fails after the first piece if the upload is named "short".
 class Assets final : public v1::AssetService::Service {
  public:
   grpc::Status UploadChunk(grpc::ServerContext*, grpc::ServerReader<v1::UploadChunkRequest>* reader,
@@ -63,7 +64,7 @@ class Assets final : public v1::AssetService::Service {
   }
 };
 
-/// Sends `offset` pieces.
+/// Sends as many pieces as the request's `offset` says.
 class Artifacts final : public v1::ArtifactService::Service {
  public:
   grpc::Status DownloadArtifact(grpc::ServerContext*, const v1::DownloadArtifactRequest* request,
@@ -155,7 +156,7 @@ TEST_F(Forwarder, CallIsRefusedBeforeItsMessageIsRead) {
   bool ok = false;
   stream->StartCall(&tag);
   ASSERT_TRUE(completions.Next(&tag, &ok));
-  stream->Finish(&status, &tag);  // no message was sent
+  stream->Finish(&status, &tag);  // finishes the stream without a message
   ASSERT_TRUE(completions.Next(&tag, &ok));
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
   EXPECT_EQ(queue.calls, 0);

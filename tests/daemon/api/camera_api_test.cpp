@@ -28,7 +28,7 @@ class CameraApi : public CameraTest {
                      ->GetDepthPicture(ann->context().get(), {}, &out.picture);
     return out;
   }
-  /// Requests pictures until the result has this reason; "" means a picture.
+  /// Requests pictures until one fails with this reason, or succeeds if the reason is "".
   [[nodiscard]] bool comes_to(const std::string& reason) {
     return wait_until(
         [&] {
@@ -57,7 +57,7 @@ TEST_F(CameraApi, PictureShowsThePresentView) {
   EXPECT_TRUE(wait_until([&] {
     const v1::DepthPicture later = look().picture;
     return later.time().seconds() > first.time().seconds() && later.png() != first.png();
-  })) << "pictures continue";
+  })) << "new pictures arrive";
 }
 
 TEST_F(CameraApi, OneProcessServesAllViewersAndEndsWithoutThem) {
@@ -71,7 +71,7 @@ TEST_F(CameraApi, OneProcessServesAllViewersAndEndsWithoutThem) {
   EXPECT_EQ(fine, 8);
   EXPECT_EQ(daemon->workers().size(), 1U);
   EXPECT_TRUE(wait_until([&] { return daemon->workers().empty(); }, 60));
-  EXPECT_TRUE(comes_to("")) << "and again";
+  EXPECT_TRUE(comes_to("")) << "the camera starts again on request";
 }
 
 TEST_F(CameraApi, CaptureBorrowsTheCamera) {
@@ -84,12 +84,12 @@ TEST_F(CameraApi, CaptureBorrowsTheCamera) {
   EXPECT_EQ(error_info(meanwhile.status).metadata().at("job"), job.name());
   ann->wait(job.name(), [](const v1::Job& now) { return now.progress_fraction() > 0; });
   if (proc_is_mounted()) {
-    EXPECT_EQ(daemon->workers().size(), 1U) << "only the capture's process";
+    EXPECT_EQ(daemon->workers().size(), 1U) << "only the process of the capture runs";
   }
   ann->cancel(job.name());
   done(job);
   EXPECT_TRUE(comes_to("")) << "pictures are shown again";
-  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "captures work again";
+  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "the camera is free for captures";
 }
 
 TEST_F(CameraApi, CameraFaultIsReportedUntilItIsCleared) {
@@ -116,7 +116,7 @@ TEST_F(CameraApi, HangingCameraBlocksOnlyItsViewers) {
   EXPECT_TRUE(ann->stop().ok());
   watcher.join();
   const v1::Job job = done(create(capture_of(0.2)));
-  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << "the capture's own error";
+  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << "the capture reports its own error";
   rig->act("clear");
   EXPECT_TRUE(comes_to(""));
 }

@@ -17,7 +17,7 @@ namespace {
 
 class Crash : public ::testing::Test {
  protected:
-  // Simulates a power cut, as far as a process can.
+  // Simulates a power cut as far as killing a process can.
   void kill_and_restart() {
     daemon.kill();
     daemon.start();
@@ -104,7 +104,7 @@ TEST_F(Crash, QueuedJobsPauseAndRequestIdsAreKept) {
   EXPECT_EQ(client->wait_for_end(second).state(), v1::Job::SUCCEEDED);
 }
 
-// Turns the store into one of schema version 3, whose jobs had the worker's flags instead of a
+// Turns the store into one of schema version 3, whose jobs have the worker's flags instead of a
 // spec.
 void downgrade_to_version_3(const std::filesystem::path& path) {
   const auto database = daemon::Database::open(path, "").value();
@@ -174,7 +174,7 @@ TEST_F(Crash, NoAcknowledgedDataIsLostAtAnyMoment) {
   // On a busy machine the first kills may come before any job is created.
   const int rounds = testing::campaign_rounds(6), most_rounds = rounds + 50;
   for (int round = 0; round < rounds || (jobs.empty() && round < most_rounds); ++round) {
-    // A job that is running at three kills would rightly fail.
+    // A job that is running at three kills fails by design, so it is left to finish after two.
     for (const std::string& name : jobs) {
       const States states = history(name);
       if (std::count(states.begin(), states.end(), v1::Job::INTERRUPTED) > 1) {

@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr double kContact_mm = 8;
-constexpr double kClearance_mm = 3;  // as in short_dip()
+constexpr double kClearance_mm = 3;  // value in short_dip()
 
 class DipApi : public RigTest {
  protected:
@@ -25,7 +25,7 @@ class DipApi : public RigTest {
     ann.make_ready();
     ann.go_to(kContact_mm);
   }
-  /// Starts a dip and returns in the middle of its descent.
+  /// Starts a dip and returns its name in the middle of the descent.
   std::string descending(double depth_mm = 40, double speed_mm_per_s = 10) {
     v1::DipSpec spec = short_dip();
     spec.set_depth_mm(depth_mm);
@@ -53,7 +53,7 @@ class DipApi : public RigTest {
   }
 };
 
-/// Rows of positions.csv as numbers, without the name of the motion; only the motion "dip".
+/// Rows of positions.csv for the motion "dip", as numbers, without the column of the motion's name.
 std::vector<std::vector<double>> positions(const std::string& csv) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(csv);
@@ -91,7 +91,8 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
   const auto& soak_end = soaking.dip_status().step_end_time();
   EXPECT_LE(soak_end.seconds() - soaking.update_time().seconds(), 2);
   EXPECT_GT(soaking.progress_fraction(), 0);
-  EXPECT_NEAR(rig.position_mm(), kContact_mm - kClearance_mm, 0.1) << "room for the film";
+  EXPECT_NEAR(rig.position_mm(), kContact_mm - kClearance_mm, 0.1)
+      << "the object is above the water, so that the film can be laid";
 
   ann.guide_to(name, v1::DipStatus::DESCEND);
   EXPECT_EQ(ann.rig().state(), v1::Rig::DIPPING);
@@ -121,7 +122,7 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
   EXPECT_EQ(report.at("steps").at(4).at("confirmed_by"), "ann");
 
   const auto rows = positions(ann.download(name + "/artifacts/positions.csv"));
-  // 15 mm down, 0.3 s, 15 mm up at 10 mm/s, at 20 Hz or better.
+  // 15 mm down, 0.3 s at rest and 15 mm up at 10 mm/s take over 3 s, with at least 20 samples/s.
   EXPECT_GT(rows.size(), 20 * 3U);
   double deepest_mm = 0, longest_s = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -130,7 +131,7 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
     if (i > 0) longest_s = std::max(longest_s, rows[i][0] - rows[i - 1][0]);
   }
   EXPECT_NEAR(deepest_mm, 12, 0.1);
-  EXPECT_LT(longest_s, 0.1) << "between two samples";
+  EXPECT_LT(longest_s, 0.1) << "time between two samples, in s";
 }
 
 TEST_F(DipApi, SkipsConfirmationsAndClocksOnTheVirtualRig) {
@@ -165,7 +166,7 @@ TEST_F(DipApi, ImpossibleDipIsRefusedBeforeAnyMotion) {
   RigClient bob(daemon.address(), "bob");
   EXPECT_EQ(reason_of(bob.create_dip(short_dip(), job)), "LEASE_REQUIRED");
   const std::string open = ann.dip(short_dip()).name();
-  EXPECT_EQ(reason_of(ann.create_dip(short_dip(), job)), "STATE_FORBIDS") << "another is open";
+  EXPECT_EQ(reason_of(ann.create_dip(short_dip(), job)), "STATE_FORBIDS") << "another dip is open";
   ann.cancel(open);
   ann.wait_for_end(open);
   v1::RetryJobRequest retry;
@@ -188,7 +189,7 @@ TEST_F(DipApi, FirstContactOutOfReachIsRefusedAndTheDipWaits) {
   EXPECT_EQ(reason_of(refused), "LIMIT_EXCEEDED");
   EXPECT_EQ(error_info(refused).metadata().at("max"), "298");
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::FIND_CONTACT);
-  ann.go_to(5.5);  // as if the object hung lower
+  ann.go_to(5.5);  // contact position of an object that hangs lower
   EXPECT_TRUE(ann.confirm(name, v1::DipStatus::FIND_CONTACT).ok());
   ann.wait_for_step(name, v1::DipStatus::LAY_FILM);
 }
@@ -199,7 +200,8 @@ TEST_F(DipApi, ConfirmationCountsForOneStepOnly) {
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::SOAK)), "STATE_FORBIDS");
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::STEP_UNSPECIFIED)), "SPEC_INVALID");
   ASSERT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok());
-  EXPECT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok()) << "confirmed again";
+  EXPECT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok())
+      << "confirming again is not an error";
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::LOAD_OBJECT);
   RigClient bob(daemon.address(), "bob");
   EXPECT_EQ(reason_of(bob.confirm(name, v1::DipStatus::LOAD_OBJECT)), "LEASE_REQUIRED");
@@ -318,7 +320,7 @@ TEST_P(DipFault, DuringTheDescentFailsTheDipWithAReason) {
   EXPECT_EQ(report.at("outcome"), "FAILED");
   EXPECT_EQ(report.at("reason"), GetParam().reason);
   EXPECT_GT(report.at("depth_reached_mm"), 2.5);
-  // 6 mm and more at 10 mm/s, at 20 Hz or better.
+  // 6 mm or more at 10 mm/s take at least 0.6 s, with at least 20 samples/s.
   EXPECT_GT(positions(ann.download(name + "/artifacts/positions.csv")).size(), 12U);
   EXPECT_EQ(ann.rig().dip(), "");
 }
@@ -329,7 +331,8 @@ TEST_P(DipFault, WhileTheFilmSoaksFailsTheDipToo) {
   const std::string name = ann.dip(spec).name();
   ann.guide_to(name, v1::DipStatus::SOAK);
   rig.act(GetParam().line);
-  if (GetParam().name == std::string("Stall")) {  // no motion can be blocked in this step
+  // Nothing moves in this step, so nothing can stall.
+  if (GetParam().name == std::string("Stall")) {
     std::this_thread::sleep_for(milliseconds(500));
     EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::SOAK);
     return;
@@ -385,7 +388,7 @@ TEST_F(DipApi, KillDuringTheDescentStopsTheRigAndInterruptsTheDip) {
   EXPECT_EQ(report.at("outcome"), "INTERRUPTED");
   EXPECT_EQ(report.at("step"), "DESCEND");
   EXPECT_GT(positions(again.download(name + "/artifacts/positions.csv")).size(), 8U)
-      << "complete except for the last 0.25 s";
+      << "at most the last 0.25 s of samples may be missing";
   std::this_thread::sleep_for(milliseconds(500));
   EXPECT_EQ(again.job(name).state(), v1::Job::INTERRUPTED) << "the state is final";
   EXPECT_EQ(rig.position_mm(), rest_mm);
@@ -414,7 +417,7 @@ class HeldStore {
 };
 
 TEST_F(DipApi, HangingStoreDelaysNeitherMotionNorStop) {
-  // Slow enough to continue while the store is locked.
+  // The dip is slow enough to last while the store is locked.
   const std::string name = descending(60, 2);
   {
     const HeldStore held(daemon.state() / "hydroprint.db");
@@ -423,7 +426,7 @@ TEST_F(DipApi, HangingStoreDelaysNeitherMotionNorStop) {
     EXPECT_EQ(rig.speed_mm_per_s(), 2);
     const double asked_s = rig.now_s();
     EXPECT_TRUE(ann.stop().ok());
-    EXPECT_LT(rig.rested_s() - asked_s, 1) << "a wait for the store takes five times as long";
+    EXPECT_LT(rig.rested_s() - asked_s, 1) << "a stop that waited for the store would take 5 s";
   }
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
   EXPECT_GT(ann.report(name).at("depth_reached_mm"), 4);
@@ -433,7 +436,7 @@ TEST_F(DipApi, DriveStopsTheDescentOfAHangingDaemon) {
   const std::string name = descending();
   ::kill(daemon.pid(), SIGSTOP);
   const double hung_s = rig.now_s(), hung_mm = rig.position_mm();
-  // The drive's watchdog time and stopping distance, from its profile.
+  // The drive's watchdog time and braking time, from its profile, and 0.1 s of tolerance.
   EXPECT_LT(rig.rested_s() - hung_s, 0.25 + 10.0 / 200 + 0.1);
   const double rest_mm = rig.position_mm();
   EXPECT_LT(rest_mm - hung_mm, 10 * (0.25 + 0.1) + 10.0 * 10 / (2 * 200));
@@ -510,7 +513,8 @@ TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
     simulated = ann.job(simulated.name());
     return finished(simulated);
   };
-  ASSERT_TRUE(wait_until(computed, 200)) << "workers have the lowest priority";
+  ASSERT_TRUE(wait_until(computed, 200))
+      << "the simulation may be slow: workers have the lowest priority";
   ASSERT_EQ(simulated.state(), v1::Job::SUCCEEDED) << simulated.error().message();
   v1::DipSpec dip;
   dip.set_simulate_job(simulated.name());
@@ -519,7 +523,7 @@ TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
   const std::string name = ann.dip(dip).name();
   EXPECT_NE(ann.job(name).dip_status().instruction().find(simulated.name()), std::string::npos);
   const v1::Job spraying = ann.guide_to(name, v1::DipStatus::SPRAY_ACTIVATOR);
-  // 20 ml/m2 on a circle of 50 mm.
+  // 20 ml/m2 on a film of 50 mm radius.
   EXPECT_NE(spraying.dip_status().instruction().find("spray 0.2 ml"), std::string::npos)
       << spraying.dip_status().instruction();
   ann.guide_to(name, v1::DipStatus::DESCEND);
@@ -535,7 +539,7 @@ TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
 
 TEST(DipOnARealDrive, AlwaysNeedsAnOperator) {
   const TemporaryFolder folder;
-  VirtualRig rig;  // does not report the data in the daemon's profile
+  VirtualRig rig;  // its own profile says that the drive is virtual
   auto options = DaemonProcess::fake();
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string is_virtual = "virtual = true";

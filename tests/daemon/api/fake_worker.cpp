@@ -5,7 +5,7 @@
 //   exit N WORDS    prints WORDS and exits with status N
 //   reason WORD     prints WORD as the reason of an error
 //   crash           aborts
-//   eat             allocates memory until none is left
+//   eat             allocates 64 GiB of memory, 16 MiB at a time
 //   huge            writes a file of 64 MiB
 //   fill            writes a file until the disk is full
 //   many            writes 900 empty files with long names
@@ -19,9 +19,9 @@
 //   read FILE       reports whether it could read the file
 //   write FILE      reports whether it could write the file
 //
-// Finally it writes film.png and report.json, which ends with its spec. print-image writes
-// print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera write a
-// calibration and spec.json.
+// After the commands it writes film.png, and report.json, which ends with the spec. print-image
+// writes print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera
+// write a calibration and spec.json.
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -46,7 +46,8 @@ nlohmann::json spec;
 std::string facts;
 bool is_garbage = false;
 
-/// Name of a file in the spec, or of a flag for jobs stored without a spec; empty if there is none.
+/// Name of a file from the spec; for jobs stored without a spec, from the worker's flags. Empty if
+/// there is none.
 std::string file_of(const std::string& field) {
   if (spec.is_null()) return flags["--" + field];
   return spec.contains(field) ? spec[field].value("name", "") : "";
@@ -191,7 +192,8 @@ void answer(const std::string& head, const std::string& bytes) {
   std::cout << head << ",\"bytes\":" << bytes.size() << "}\n" << bytes << std::flush;
 }
 
-// Commands in the mesh: "mute" sends no answer, "rubbish" a malformed one, "end" exits.
+// Answers preview requests. Commands in the mesh: "mute" sends no answer, "rubbish" sends a
+// malformed one, "end" exits.
 void preview() {
   std::stringstream mesh;
   mesh << std::ifstream(file_of("mesh")).rdbuf();

@@ -43,7 +43,7 @@ class FullDisk : public ::testing::Test {
     EXPECT_LE(free_bytes(), bytes);
   }
   void make_room() const { fs::remove(disk / "others"); }
-  // Regular files below a folder of the store.
+  // Number of regular files below a folder of the store.
   [[nodiscard]] int files_in(const char* name) const {
     int count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(disk / name)) {
@@ -101,7 +101,7 @@ TEST_F(FullDisk, UploadThatFillsTheDiskIsRefusedAndDeleted) {
             grpc::NOT_FOUND);
 
   const grpc::Status again = client->assets->StartUpload(client->context().get(), begin, &begun);
-  EXPECT_EQ(error_info(again).reason(), "DISK_FULL") << "refused before the upload";
+  EXPECT_EQ(error_info(again).reason(), "DISK_FULL") << "the upload is refused before it starts";
   make_room();
   EXPECT_EQ(client->upload(bytes), "assets/" + hash_of(bytes));
 }
@@ -124,7 +124,7 @@ TEST_F(FullDisk, RealJobFailsIfItsArtifactsDoNotFit) {
   client->resume();
   const v1::Job ended = client->wait_for_end(job.name());
   expect_no_room_for(ended);
-  EXPECT_EQ(ended.error().exit_status(), 3) << "the worker found the disk full";
+  EXPECT_EQ(ended.error().exit_status(), 3) << "the worker itself reports the full disk";
   make_room();
   v1::RetryJobRequest retry;
   retry.set_name(job.name());
@@ -157,7 +157,7 @@ TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonKeepsRunning) {
   const std::string asset = client->upload("#2");
   const std::string waiting = client->simulate("#3").name();
   leave_free(0);
-  // Each change uses space in the database's log until none is left.
+  // Each change uses space in the database's log, until the disk is full.
   grpc::Status refused;
   v1::Queue queue;
   for (int i = 0; i < 2000 && refused.ok(); ++i) {

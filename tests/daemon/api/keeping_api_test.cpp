@@ -13,7 +13,7 @@ void expect_refused(const grpc::Status& status, StatusCode code, const std::stri
   EXPECT_EQ(error_info(status).reason(), reason) << status.error_message();
 }
 
-/// Calls of a client that may be refused.
+/// Calls that may be refused; each returns its status.
 struct Asking {
   Client& client;
 
@@ -87,7 +87,7 @@ class KeepingApi : public PeopleApi {
   }
   Asking& operator[](const std::string& name) { return asking.at(name); }
 
-  /// Moves the end of finished jobs, and the last use of assets, by `days` into the past.
+  /// Moves the end times of finished jobs and the last uses of assets `days` into the past.
   void age(int days) {
     const std::string ms = std::to_string(days * 24LL * 3600 * 1000);
     const auto database = daemon::Database::open(state / "hydroprint.db", "").value();
@@ -112,7 +112,7 @@ TEST_F(KeepingApi, HashAloneGivesNoAccessToAFile) {
   expect_refused(other.remove(asset), StatusCode::NOT_FOUND, "ASSET_NOT_FOUND");
   EXPECT_TRUE(other.list().empty());
   ASSERT_TRUE(other.start_upload("mesh", started).ok());
-  EXPECT_TRUE(started.has_upload());  // a client that has the bytes can upload them
+  EXPECT_TRUE(started.has_upload());  // a client that has the bytes may upload them
   for (const char* const name : {"operator", "admin"}) {
     ASSERT_TRUE((*this)[name].get(asset, seen).ok()) << name;
     EXPECT_EQ(seen.owners_size(), 1);
@@ -127,7 +127,7 @@ TEST_F(KeepingApi, HashAloneGivesNoAccessToAFile) {
 }
 
 TEST_F(KeepingApi, InputsOfASharedJobCanBeUsedByAll) {
-  as("operator")->pause();  // artifacts would count for their owners
+  as("operator")->pause();  // jobs must not run: artifacts would count for their owners
   const auto maker = as("maker");
   const v1::Job job = maker->simulate("mesh");
   const std::string asset = job.simulate().mesh().asset();
@@ -135,7 +135,7 @@ TEST_F(KeepingApi, InputsOfASharedJobCanBeUsedByAll) {
   EXPECT_FALSE((*this)["other"].create(asset, made).ok());
   ASSERT_TRUE((*this)["maker"].share(job.name(), true).ok());
   EXPECT_TRUE((*this)["other"].create(asset, made).ok());
-  EXPECT_EQ((*this)["other"].usage().stored_bytes(), 0);  // it counts for the maker
+  EXPECT_EQ((*this)["other"].usage().stored_bytes(), 0);  // the asset counts for its owner, maker
 }
 
 TEST_F(KeepingApi, OwnersGiveUpTheirAssetsAndOperatorsDeleteAny) {
@@ -255,7 +255,7 @@ TEST_F(KeepingApi, NameOfADeletedUserIsReserved) {
   v1::User user;
   expect_refused(admin->people->CreateUser(admin->context().get(), comes, &user),
                  StatusCode::FAILED_PRECONDITION, "USER_NAME_USED");
-  comes.set_returns(true);  // confirmed as the same person
+  comes.set_returns(true);  // confirms that the new user is the same person
   ASSERT_TRUE(admin->people->CreateUser(admin->context().get(), comes, &user).ok());
   keys["maker"] = key_of("maker");
   EXPECT_TRUE(as("maker")->job(name).simulate().has_mesh());

@@ -31,10 +31,11 @@ using std::chrono::milliseconds;
 const int rounds = testing::campaign_rounds(10);
 const std::uint32_t seed = testing::campaign_seed(1);
 
-// Near the home switch, so that homing is short; the soft limit is at 2 mm.
+// Range of targets: near the home switch, so that homing is short, and beyond the soft limit at
+// 2 mm.
 constexpr double kNearest_mm = 3;
 constexpr double kFarthest_mm = 12;
-constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing
+constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing speed
 constexpr double kSlowest_mm_per_s = 1;
 // Tolerance beyond the drive's own bounds, for the uncertain moment of the kill and the delay of
 // the signal.
@@ -52,13 +53,13 @@ struct Plan {
   double speed_mm_per_s = kFastest_mm_per_s;
   double target_mm = 0;          ///< target of a move; start of a dip
   double depth_mm = 0;           ///< only for a dip
-  double after_s = 0;            ///< time after the order is sent
-  bool restart_at_once = false;  ///< while the axis may still be moving, as a service manager would
+  double after_s = 0;            ///< time from the command to the kill
+  bool restart_at_once = false;  ///< restart the daemon while the axis may still move
 };
 
 Plan draw(std::mt19937& random) {
   const auto between = [&](double low, double high) {
-    // std::uniform_real_distribution differs between libraries.
+    // Not std::uniform_real_distribution, whose numbers differ between standard libraries.
     return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
   };
   Plan plan;
@@ -71,7 +72,7 @@ Plan draw(std::mt19937& random) {
   plan.speed_mm_per_s = between(kSlowest_mm_per_s, kFastest_mm_per_s);
   plan.target_mm = between(kNearest_mm, kFarthest_mm);
   plan.depth_mm = between(1, 8);
-  double way_mm = plan.target_mm;  // starting at home
+  double way_mm = plan.target_mm;  // from the home position
   if (plan.kind == Kind::kDip) {
     plan.target_mm = kNearest_mm + 1;
     way_mm = 2 * plan.depth_mm + 2;
@@ -104,13 +105,13 @@ bool stands(const json& truth) {
   return number(truth, "velocity_mm_per_s") == 0 && !truth.at("moving").get<bool>();
 }
 
-/// @param killed  state of the drive just before the kill
+/// Waits until the axis rests. `killed` is the state of the drive just before the kill.
 Standstill watch_it_stop(const VirtualRig& drive, const json& killed) {
   json first;
   const auto rests = [&] {
     first = drive.truth();
     if (!stands(first)) return false;
-    // An order may still have been in transit.
+    // A command may still be on its way to the drive, so this looks twice.
     std::this_thread::sleep_for(kLookAgain);
     const json second = drive.truth();
     return stands(second) && second.at("position_mm") == first.at("position_mm");
@@ -153,7 +154,7 @@ v1::DipSpec dip_of(const Plan& plan) {
   return spec;
 }
 
-/// First column of a query's result; the daemon may be running.
+/// First column of a query's result. The daemon may run meanwhile.
 std::vector<std::string> rows_of(const std::filesystem::path& database, const char* sql) {
   std::vector<std::string> out;
   const auto keep = [](void* rows, int, char** values, char**) {
@@ -203,7 +204,7 @@ class Campaign {
   std::unique_ptr<RigClient> client_;
   std::string lease_id_;
   std::string asset_;
-  std::vector<std::string> acknowledged_;       // jobs
+  std::vector<std::string> acknowledged_;       // names of acknowledged jobs
   std::string dip_;                             // dip of this round, if acknowledged
   std::map<std::string, v1::Job::State> dips_;  // final states of earlier dips
   Standstill stop_;
@@ -235,15 +236,16 @@ void Campaign::prepare(const Plan& plan) {
   FAIL() << "the rig does not become ready: " << client_->rig().trouble();
 }
 
-/// On a busy machine, an answer of the drive or a call of a jog may be late. The daemon then stops
-/// the axis and tells the client, so the killed motion is not the planned one.
+/// Counts rounds in which the motion was refused or stopped before the kill. On a busy machine, a
+/// reply of the drive or a call that continues a jog may be late; the daemon then stops the axis.
 void Campaign::expect_obeyed(const grpc::Status& sent) {
   if (sent.ok() || sent.error_code() == grpc::UNAVAILABLE) return;
   ++spoilt_;
-  std::cout << "not as planned: " << reason_of(sent) << ": " << sent.error_message() << std::endl;
+  std::cout << "motion not as planned: " << reason_of(sent) << ": " << sent.error_message()
+            << std::endl;
 }
 
-/// Sends the command, then keeps calling until the daemon is gone.
+/// Sends the command, then keeps calling the daemon until it is gone.
 void Campaign::keep_busy(const Plan& plan) {
   client_->patient = false;
   v1::Job job;
@@ -278,7 +280,7 @@ void Campaign::move_until_killed(const Plan& plan) {
   });
   keep_busy(plan);
   killed.get_future().wait();
-  daemon_.kill();  // waits for its end
+  daemon_.kill();  // waits for the end of the process
   if (plan.restart_at_once) restart();
   killer.join();
   moving_ += stop_.was_moving ? 1 : 0;
@@ -293,17 +295,17 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   ASSERT_TRUE(profile);
   const double watchdog_s = profile->watchdog->largest_time_s;
-  // Homing has its own speed.
+  // Homing always uses the same speed, whatever the plan.
   const double speed = plan.kind == Kind::kHome ? kFastest_mm_per_s : plan.speed_mm_per_s;
   const double in_s = watchdog_s + speed / profile->stopping_deceleration_mm_per_s2;
   const double in_mm = drive::stopping_distance_mm(*profile, speed, watchdog_s);
-  ASSERT_TRUE(stop.happened) << "it still moves";
+  ASSERT_TRUE(stop.happened) << "the axis still moves after 3 s";
   EXPECT_LE(stop.seconds, in_s + kSlack_s);
   EXPECT_LE(stop.way_mm, in_mm + speed * kSlack_s);
   const rig::RigConfig config;
   EXPECT_GE(stop.position_mm, config.end_low_mm);
   EXPECT_LE(in_mm, rig::stopping_distance_mm(config, *profile, speed))
-      << "the keep-out must be long enough";
+      << "the rig's keep-out would be shorter than the drive's stopping distance";
   if (!stop.was_moving) return;
   most_time_share_ = std::max(most_time_share_, stop.seconds / in_s);
   most_way_share_ = std::max(most_way_share_, stop.way_mm / in_mm);
@@ -315,9 +317,9 @@ void Campaign::expect_whole_store() const {
   EXPECT_EQ(rows_of(database, "PRAGMA foreign_key_check"), std::vector<std::string>{});
 }
 
-/// Homing must be required, and nothing may move before it.
+/// Expects that homing is required and that nothing moves before homing.
 void Campaign::expect_cold_rig(const Standstill& stop) {
-  // The daemon may have found the drive in motion; two polls show standstill.
+  // The daemon may have found the drive in motion. Two polls show that it stands still.
   ASSERT_TRUE(wait_until([&] {
     const v1::Rig::State state = client_->rig().state();
     return state != v1::Rig::OFFLINE && state != v1::Rig::STOPPING;
@@ -329,17 +331,17 @@ void Campaign::expect_cold_rig(const Standstill& stop) {
   EXPECT_EQ(rig.dip(), "");
   const std::string refused = reason_of(client_->move_to(kFarthest_mm));
   EXPECT_TRUE(refused == "RIG_FAULTED" || refused == "STATE_FORBIDS") << refused;
-  EXPECT_TRUE(renews_lease(*client_)) << "the lease was acknowledged";
+  EXPECT_TRUE(renews_lease(*client_)) << "the lease was acknowledged, so it must still exist";
   ASSERT_TRUE(gets_armed(*client_));
   EXPECT_EQ(reason_of(client_->move_to(kFarthest_mm)), "RIG_NOT_HOMED");
   EXPECT_EQ(reason_of(client_->jog(5)), "RIG_NOT_HOMED");
-  EXPECT_EQ(drive_.position_mm(), stop.position_mm) << "neither reset nor arming moves it";
+  EXPECT_EQ(drive_.position_mm(), stop.position_mm) << "neither reset nor arming may move the axis";
 }
 
 /// Checks the end of a dip that was open, or had just ended, at the kill.
 void Campaign::expect_ended(const v1::Job& dip) {
   const auto [known, is_new] = dips_.emplace(dip.name(), dip.state());
-  EXPECT_EQ(dip.state(), known->second) << dip.name() << " ended before";
+  EXPECT_EQ(dip.state(), known->second) << dip.name() << " had already ended in this state";
   const bool may_be_done = !stop_.was_moving && dip.state() == v1::Job::SUCCEEDED;
   if (is_new && !may_be_done) {
     EXPECT_EQ(v1::Job::State_Name(dip.state()), "INTERRUPTED") << dip.name();

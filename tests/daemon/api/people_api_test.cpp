@@ -78,7 +78,8 @@ std::vector<v1::AuditEntry> audit(Client& client, const std::string& what) {
 }
 
 TEST_F(PeopleApi, JobsAreOwnedByTheAuthenticatedCaller) {
-  Client client(daemon.address(), "admin");  // sent as hydroprint-owner
+  // The client claims the owner "admin" in the metadata hydroprint-owner.
+  Client client(daemon.address(), "admin");
   client.key = keys["maker"];
   EXPECT_EQ(client.simulate("x").owner(), "maker");
 }
@@ -100,7 +101,7 @@ TEST_F(PeopleApi, ResultsAreVisibleToOwnerAndOperatorsUnlessShared) {
     expect_refusal(get_artifact(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     expect_refusal(download(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     const v1::Job seen = get(*client, name);
-    EXPECT_EQ(seen.owner(), "maker");  // everybody may see the queue
+    EXPECT_EQ(seen.owner(), "maker");  // every user may see the owners of jobs
     EXPECT_TRUE(seen.has_simulate());
     EXPECT_FALSE(seen.simulate().has_mesh()) << seen.ShortDebugString();
   }
@@ -310,7 +311,8 @@ TEST_F(PeopleApi, WrongPasswordsAreThrottledWithAWaitingTime) {
   }
   expect_refusal(status, StatusCode::RESOURCE_EXHAUSTED, "TOO_MANY_ATTEMPTS");
   EXPECT_NE(status.error_details().find("RetryInfo"), std::string::npos);
-  EXPECT_FALSE(sign_in("other").session_token().empty());  // from the same address
+  // Another user may sign in from the same address.
+  EXPECT_FALSE(sign_in("other").session_token().empty());
 }
 
 TEST_F(PeopleApi, AuditLogNamesCallerAndMethod) {
@@ -343,8 +345,8 @@ TEST_F(PeopleApi, AuditLogHasMotionsAndRefusals) {
   v1::MoveToRequest move;
   move.set_position_mm(12.5);
   v1::Rig reply;
-  EXPECT_FALSE(
-      rig->MoveTo(operator_user->context().get(), move, &reply).ok());  // no rig is configured
+  // The call fails because no rig is configured, not because of the role.
+  EXPECT_FALSE(rig->MoveTo(operator_user->context().get(), move, &reply).ok());
   expect_refusal(rig->MoveTo(viewer->context().get(), move, &reply), StatusCode::PERMISSION_DENIED,
                  "ROLE_TOO_LOW");
   EXPECT_TRUE(rig->StopMotion(viewer->context().get(), {}, &reply).ok());

@@ -25,7 +25,7 @@ class Previews : public ::testing::Test {
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     client = std::make_unique<Client>(daemon->address());
   }
-  /// The fake worker reports its pid as the depth.
+  /// Requests a preview. The fake worker reports its pid as the depth.
   grpc::Status preview(const std::string& mesh, v1::Preview& out, bool with_mesh = false,
                        const std::string& owner = "") {
     Client caller(daemon->address(), owner);
@@ -57,7 +57,7 @@ TEST_F(Previews, KeepTheMeshInTheirOwnWorker) {
   v1::Preview first, second, other, third;
   ASSERT_TRUE(preview("a", first, true).ok());
   ASSERT_TRUE(preview("a", second).ok());
-  EXPECT_EQ(first.depth_mm(), second.depth_mm()) << "the same process";
+  EXPECT_EQ(first.depth_mm(), second.depth_mm()) << "the same mesh uses the same process";
   EXPECT_EQ(first.vertex_positions(), std::string(12, 'v'));
   EXPECT_EQ(second.vertex_positions(), "");
   EXPECT_EQ(second.vertex_map(), std::string(16, 'm'));
@@ -66,7 +66,7 @@ TEST_F(Previews, KeepTheMeshInTheirOwnWorker) {
   ASSERT_TRUE(preview("b", other).ok());
   EXPECT_NE(first.depth_mm(), other.depth_mm());
   ASSERT_TRUE(preview("a", third, false, "somebody").ok());
-  EXPECT_NE(first.depth_mm(), third.depth_mm()) << "each user has a process";
+  EXPECT_NE(first.depth_mm(), third.depth_mm()) << "another user gets another process";
   if (proc_is_mounted()) {
     EXPECT_EQ(daemon->workers().size(), 2u) << "one process per user";
   }
@@ -120,7 +120,7 @@ TEST_F(Previews, ErrorsAreReportedAndTheNextRequestWorks) {
                                     ->ComputePreview(client->context().get(), request, &out);
     return error_info(status).reason();
   };
-  EXPECT_EQ(refused(), "SPEC_INVALID") << "no mesh";
+  EXPECT_EQ(refused(), "SPEC_INVALID") << "the request has no mesh";
   request.mutable_simulate()->mutable_mesh()->set_name("m.obj");
   request.mutable_simulate()->mutable_mesh()->set_asset("assets/" + std::string(64, 'a'));
   EXPECT_EQ(refused(), "ASSET_MISSING");
@@ -134,7 +134,8 @@ TEST_F(Previews, EndWithTheDaemonEvenIfAWorkerIsSilent) {
     v1::Preview out;
     EXPECT_FALSE(preview("mute", out).ok());
   });
-  std::this_thread::sleep_for(std::chrono::seconds(2));  // a slow build still uploads
+  // Waits long enough for the upload, also in a slow build.
+  std::this_thread::sleep_for(std::chrono::seconds(2));
   EXPECT_EQ(daemon->terminate(), 0);
   waiting.join();
 }
@@ -154,7 +155,7 @@ TEST_F(Previews, ReportWhereTheFilmLands) {
   std::memcpy(tip.data(), out.vertex_map().data(), sizeof tip);
   EXPECT_NEAR(tip[0], 0, 0.5);
   EXPECT_NEAR(tip[1], 0, 0.5);
-  EXPECT_NEAR(tip[2], 0, 0.01) << "touches the water first";
+  EXPECT_NEAR(tip[2], 0, 0.01) << "the tip touches the water first, at time 0";
   EXPECT_NEAR(out.depth_mm(), 20, 0.01);
   EXPECT_GT(out.coverage(), 0.3);
   EXPECT_GE(out.stretch_p95(), out.stretch_p50());

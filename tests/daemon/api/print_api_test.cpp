@@ -37,7 +37,7 @@ class PrintApi : public ::testing::Test {
     EXPECT_TRUE(status.ok()) << status.error_message();
     return job;
   }
-  /// Why a job is refused.
+  /// Reason of the error with which a job is refused; "" if it is accepted.
   std::string refusal(v1::Job wanted) {
     v1::CreateJobRequest request;
     *request.mutable_job() = std::move(wanted);
@@ -46,7 +46,7 @@ class PrintApi : public ::testing::Test {
   }
   v1::Job done(const v1::Job& job) { return client_->wait_for_end(job.name()); }
 
-  /// A finished simulation.
+  /// Runs a simulation and returns it when it has ended.
   v1::Job simulated(const std::string& film = "") {
     auto wanted = simulate_request(client_->upload("body"), "body.obj").job();
     wanted.mutable_simulate()->set_dpi(200);
@@ -69,7 +69,7 @@ class PrintApi : public ::testing::Test {
     out.mutable_print()->set_print_image_job(pages.name());
     return out;
   }
-  /// A print-image job with pages to print.
+  /// Runs a print-image job and returns it; it has pages to print.
   v1::Job pages() { return done(create(print_image_of(simulated()))); }
 
   std::string file(const v1::Job& job, const std::string& name) {
@@ -175,7 +175,7 @@ TEST_F(PrintApi, SimulationMustHaveSucceeded) {
   EXPECT_EQ(refusal(print_image_of(failed)), "STATE_FORBIDS");
   EXPECT_EQ(refusal(print_image_of(pages())), "SPEC_INVALID")
       << "a print-image job is not a simulation";
-  EXPECT_EQ(refusal(print_of(failed)), "SPEC_INVALID") << "a simulation has no pages";
+  EXPECT_EQ(refusal(print_of(failed)), "SPEC_INVALID") << "a simulation has no pages to print";
 }
 
 TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
@@ -186,7 +186,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_EQ(job.state(), v1::Job::RUNNING);
   EXPECT_EQ(job.display_name(), "print " + printed.name());
   at(job, "PROCESSING");
-  EXPECT_EQ(refusal(print_of(printed)), "STATE_FORBIDS") << "one at a time";
+  EXPECT_EQ(refusal(print_of(printed)), "STATE_FORBIDS") << "prints run one at a time";
   there.finish();
   const v1::Job ended = done(job);
   EXPECT_EQ(ended.state(), v1::Job::SUCCEEDED) << ended.error().message();
@@ -198,7 +198,8 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_TRUE(has(words, "completed")) << words;
   const json report = json::parse(file(ended, "report.json"));
   EXPECT_EQ(report["outcome"], "SUCCEEDED");
-  EXPECT_EQ(report["document"]["paper_mm"], (json{210, 297})) << "as it lies in the tray";
+  EXPECT_EQ(report["document"]["paper_mm"], (json{210, 297}))
+      << "the paper lies upright in the tray";
   EXPECT_EQ(report["states"].back()["state"], "completed");
   EXPECT_EQ(report["printer"]["address"], there.address().uri);
   v1::RetryJobRequest retry;
@@ -226,7 +227,7 @@ TEST_F(PrintApi, CancelEndsThePrintOnThePrinter) {
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
   EXPECT_EQ(client_->cancel(job.name()).state(), v1::Job::CANCELLING);
-  // This printer completes a page that it has begun.
+  // This printer completes the page that it is printing before it cancels the job.
   const printer::Printer asked(there.address());
   while (asked.job(1).value().reasons != std::vector<std::string>{"processing-to-stop-point"}) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -99,14 +99,14 @@ TEST_F(RigApi, MotionRequiresArmingAndHoming) {
   EXPECT_EQ(now.axis().min_mm(), 2);
   EXPECT_EQ(now.axis().max_mm(), 298);
   EXPECT_EQ(now.lease().holder(), "ann");
-  EXPECT_EQ(now.lease().lease_id(), "") << "others must not see it";
+  EXPECT_EQ(now.lease().lease_id(), "") << "the lease id is a secret";
   EXPECT_GT(now.link_quality().polls(), 0U);
   v1::MoveToRequest plain;
   plain.set_lease_id(ann.lease_id);
   plain.set_position_mm(50);
   v1::Rig reply;
   ASSERT_TRUE(ann.rigs->MoveTo(ann.context().get(), plain, &reply).ok());
-  EXPECT_TRUE(rig.gets_to(5)) << "by default";
+  EXPECT_TRUE(rig.gets_to(5)) << "the default speed is 5 mm/s";
   ASSERT_TRUE(ann.stop().ok());
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE));
   ASSERT_TRUE(ann.disarm().ok());
@@ -150,7 +150,7 @@ TEST_F(RigApi, HealthFollowsTheRig) {
 TEST_F(RigApi, StopNeedsNoLease) {
   ann.make_ready();
   RigClient bob(daemon.address(), "bob");
-  EXPECT_TRUE(bob.stop().ok()) << "harmless at rest";
+  EXPECT_TRUE(bob.stop().ok()) << "a stop at rest is not an error";
   ASSERT_TRUE(ann.move_to(200, 10).ok());
   ASSERT_TRUE(rig.gets_to(10));
   const double asked_s = rig.now_s();
@@ -183,7 +183,8 @@ TEST_F(RigApi, SecondOperatorMayBreakTheLeaseWithAReason) {
   EXPECT_EQ(reason_of(held), "LEASE_HELD");
   EXPECT_EQ(error_info(held).metadata().at("holder"), "ann");
   EXPECT_EQ(error_info(held).metadata().at("purpose"), "test");
-  EXPECT_EQ(reason_of(ann.acquire(lease)), "LEASE_HELD") << "to the holder as well";
+  EXPECT_EQ(reason_of(ann.acquire(lease)), "LEASE_HELD")
+      << "the holder cannot acquire the lease twice, either";
   const auto required = bob.move_to(20);
   EXPECT_EQ(reason_of(required), "LEASE_REQUIRED");
   EXPECT_EQ(error_info(required).metadata().at("holder"), "ann");
@@ -196,7 +197,7 @@ TEST_F(RigApi, SecondOperatorMayBreakTheLeaseWithAReason) {
   EXPECT_EQ(reason_of(ann.move_to(20)), "LEASE_REQUIRED");
   bob.take_lease();
   EXPECT_TRUE(bob.move_to(20).ok());
-  EXPECT_TRUE(ann.release().ok()) << "no error and no effect";
+  EXPECT_TRUE(ann.release().ok()) << "releasing a broken lease is not an error and has no effect";
   EXPECT_EQ(bob.rig().lease().holder(), "bob");
 }
 
@@ -205,7 +206,8 @@ TEST_F(RigApi, LeaseIdIsSecretAndExpires) {
   EXPECT_EQ(reason_of(ann.leases->GetLease(ann.context().get(), {}, &none)), "LEASE_NOT_FOUND");
   v1::Lease first, second, shown;
   ASSERT_TRUE(ann.acquire(first, 600, "r1").ok());
-  ASSERT_TRUE(ann.acquire(second, 600, "r1").ok()) << "the same request again";
+  ASSERT_TRUE(ann.acquire(second, 600, "r1").ok())
+      << "repeating the request returns the same lease";
   EXPECT_EQ(first.lease_id(), second.lease_id());
   EXPECT_EQ(first.lease_id().size(), 32U);
   ASSERT_TRUE(ann.leases->GetLease(ann.context().get(), {}, &shown).ok());
@@ -253,7 +255,7 @@ TEST_F(RigApi, RepeatedRequestMovesOnce) {
   EXPECT_EQ(reason_of(ann.move_to(30, 10, "m1")), "REQUEST_ID_REUSED");
   EXPECT_EQ(reason_of(ann.move_to(299, 10, "m2")), "LIMIT_EXCEEDED");
   EXPECT_EQ(reason_of(ann.move_to(299, 10, "m2")), "LIMIT_EXCEEDED")
-      << "the request was not carried out before";
+      << "a refused request is checked again";
   EXPECT_TRUE(ann.home("h1").ok());
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE, 30));
   EXPECT_TRUE(ann.home("h1").ok());
@@ -268,11 +270,11 @@ TEST_F(RigApi, JogStopsWithin500msOfTheLastCall) {
   }
   EXPECT_NEAR(rig.speed_mm_per_s(), 5, 0.01);
   const double last_s = rig.now_s();
-  ASSERT_TRUE(ann.jog(5).ok());  // after this the client is gone, as if killed
+  ASSERT_TRUE(ann.jog(5).ok());  // last call, as if the client were killed now
   EXPECT_LT(rig.rested_s() - last_s, 0.5);
 }
 
-/// Jogs until a call is refused, and returns the reason.
+/// Jogs until a call is refused, and returns the reason of the refusal; "" after 200 calls.
 std::string jog_until_refused(RigClient& client) {
   for (int i = 0; i < 200; ++i) {
     const std::string reason = reason_of(client.jog(5));
@@ -292,7 +294,7 @@ TEST_F(RigApi, BreakingTheLeaseStopsAHeldJogAtOnce) {
   const bool broken = bob.break_lease("test").ok();
   holding.join();
   EXPECT_TRUE(jogs && broken);
-  EXPECT_LT(rig.rested_s() - asked_s, 0.2) << "sooner than a jog ends by itself";
+  EXPECT_LT(rig.rested_s() - asked_s, 0.2) << "a jog that ends by itself takes longer";
   EXPECT_NE(reason, "");
   EXPECT_EQ(reason_of(ann.jog(5)), "LEASE_REQUIRED");
 }
@@ -410,7 +412,7 @@ TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
   EXPECT_TRUE(wait_until([&] {
     return ann.rigs->GetRig(ann.context().get(), {}, &reply).error_code() ==
            grpc::RESOURCE_EXHAUSTED;
-  })) << "otherwise the test proves nothing";
+  })) << "the uploads must occupy the server for the test to be meaningful";
   const auto asked = Clock::now();
   EXPECT_TRUE(ann.stop().ok());
   EXPECT_LT(seconds_since(asked), 0.2);

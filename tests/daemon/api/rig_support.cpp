@@ -112,15 +112,15 @@ bool RigClient::becomes(v1::Rig::State state, double seconds) {
 
 void RigClient::make_ready() {
   if (lease_id.empty()) take_lease();
-  if (!becomes(v1::Rig::DISARMED)) throw std::runtime_error("not disarmed");
+  if (!becomes(v1::Rig::DISARMED)) throw std::runtime_error("the rig did not become DISARMED");
   check(arm(), "Arm");
   check(home(), "Home");
-  if (!becomes(v1::Rig::IDLE, 30)) throw std::runtime_error("not homed");
+  if (!becomes(v1::Rig::IDLE, 30)) throw std::runtime_error("the rig was not homed within 30 s");
 }
 
 void RigClient::go_to(double position_mm) {
   check(move_to(position_mm), "MoveTo");
-  if (!becomes(v1::Rig::IDLE, 30)) throw std::runtime_error("the move did not end");
+  if (!becomes(v1::Rig::IDLE, 30)) throw std::runtime_error("the move did not end within 30 s");
 }
 
 grpc::Status RigClient::create_dip(const v1::DipSpec& spec, v1::Job& job) {

@@ -36,11 +36,11 @@ class RigClient : public Client {
   grpc::Status stop();
   grpc::Status reset();
 
-  /// Waits until the rig is in this state.
+  /// Waits until the rig is in this state; false after `seconds`.
   [[nodiscard]] bool becomes(v1::Rig::State state, double seconds = 10);
   /// Acquires the lease, arms and homes the rig.
   void make_ready();
-  /// Moves to a position and waits for the end.
+  /// Moves to a position and waits until the axis is there.
   void go_to(double position_mm);
 
   /// Creates a dip; throws if that fails.
@@ -49,7 +49,7 @@ class RigClient : public Client {
   grpc::Status confirm(const std::string& job, v1::DipStatus::Step step);
   /// Waits until a dip reaches this step.
   v1::Job wait_for_step(const std::string& job, v1::DipStatus::Step step);
-  /// Confirms steps until the dip reaches this one. First contact is the present axis position.
+  /// Confirms steps until the dip reaches `step`. First contact is the present axis position.
   v1::Job guide_to(const std::string& job, v1::DipStatus::Step step);
   nlohmann::json report(const std::string& job);
 
@@ -64,7 +64,7 @@ class RigClient : public Client {
 /// Status of a service according to grpc.health.v1: "SERVING" or "NOT_SERVING".
 [[nodiscard]] std::string health_of(const Client& client, const std::string& service);
 
-/// A short dip: 5 mm deep from 3 mm above at 10 mm/s, clocks of a tenth of a second.
+/// A short dip: 5 mm deep from 3 mm above the water at 10 mm/s, with waiting times of 0.1 s.
 [[nodiscard]] v1::DipSpec short_dip();
 
 /// A daemon and its rig.

@@ -106,7 +106,7 @@ void DaemonProcess::start() {
     return words.find(" ready ") != std::string::npos && words.ends_with('\n');
   };
   if (!wait_until(is_ready, kPatience_s)) {
-    throw std::runtime_error("hydroprintd did not get ready: " + log());
+    throw std::runtime_error("hydroprintd did not become ready: " + log());
   }
   address_ = named(words, "grpc");
   http_ = named(words, "http");
@@ -212,7 +212,8 @@ v1::Job Client::wait(const std::string& name, const std::function<bool(const v1:
     return until(now);
   };
   if (!wait_until(is_so, kPatience_s, 0.02)) {
-    throw std::runtime_error("waited too long: " + now.ShortDebugString());
+    throw std::runtime_error("the job did not reach the expected state within two minutes: " +
+                             now.ShortDebugString());
   }
   return now;
 }

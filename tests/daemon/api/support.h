@@ -29,18 +29,18 @@ using testing::wait_until;
 
 /// Whether /proc is mounted, which is needed to inspect other processes; bare chroots lack it.
 [[nodiscard]] bool proc_is_mounted();
-/// Message for skipping a test without it.
+/// Message of a test that is skipped because /proc is not mounted.
 constexpr const char* kNeedsProc = "/proc is not mounted: the daemon's workers cannot be seen";
 
 /// Whether hydroprint-worker was built; some builds leave it out.
 [[nodiscard]] bool real_worker_is_built();
-/// Message for skipping a test without it.
+/// Message of a test that is skipped because hydroprint-worker is missing.
 constexpr const char* kNeedsRealWorker = "hydroprint-worker is not built";
 
 /// Exit status and output of a daemon.
 struct Ended {
   int status = -1;    ///< exit status; -1 if killed
-  std::string words;  ///< stdout and stderr
+  std::string words;  ///< stdout and stderr together
 };
 
 /// Runs hydroprintd with these arguments until it exits. HTTP uses any free port unless the
@@ -80,7 +80,7 @@ class DaemonProcess {
   DaemonProcess& operator=(const DaemonProcess&) = delete;
 
   void start();
-  /// kill -9; the workers must end too.
+  /// Kills the daemon (SIGKILL). Its workers must end, too.
   void kill();
   /// Sends SIGTERM; returns the exit status.
   int terminate();
@@ -111,14 +111,14 @@ class Client {
   explicit Client(const std::string& address, const std::string& owner = "",
                   const std::string& ca_pem = "");
 
-  /// Uploads an asset unless it exists; returns "assets/{sha256}".
+  /// Uploads an asset unless the daemon has it; returns "assets/{sha256}".
   std::string upload(const std::string& bytes);
   /// Creates a job whose mesh has this content.
   v1::Job simulate(const std::string& mesh);
   grpc::Status create(const v1::CreateJobRequest& request, v1::Job& job);
   v1::Job job(const std::string& name);
   v1::Job cancel(const std::string& name);
-  /// Waits for the predicate, two minutes at most.
+  /// Waits until `until` is true for the job and returns the job. Throws after two minutes.
   v1::Job wait(const std::string& name, const std::function<bool(const v1::Job&)>& until);
   v1::Job wait_for(const std::string& name, v1::Job::State state);
   v1::Job wait_for_end(const std::string& name);

@@ -43,7 +43,7 @@ class Workers : public ::testing::Test {
       if (const auto pids = daemon->workers(); !pids.empty()) return pids.front();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    throw std::runtime_error("no worker");
+    throw std::runtime_error("no worker process appeared");
   }
 
   TemporaryFolder folder;
@@ -83,7 +83,7 @@ TEST_F(Workers, RunAtLowerPriorityThanTheDaemon) {
   start(DaemonProcess::fake());
   client->simulate("sleep 60");
   const pid_t worker = wait_for_worker();
-  // Before exec, the process is still a copy of the daemon.
+  // Until exec, the new process is a copy of the daemon and has its priority.
   const int least = std::max(10, ::getpriority(PRIO_PROCESS, 0));
   for (int i = 0; i < 500 && ::getpriority(PRIO_PROCESS, worker) < least; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -196,7 +196,7 @@ TEST_F(Workers, RunInParallelUpToTheNumberOfSlots) {
   client->wait_for("jobs/3", v1::Job::RUNNING);
 }
 
-// A ball of radius 20 mm.
+// An OBJ file of a ball of radius 20 mm.
 std::string ball_obj() {
   constexpr int kRings = 16, kSectors = 32;
   std::ostringstream obj;
@@ -239,7 +239,7 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
     try {
       job = client->wait_for_end(job.name());
     } catch (const std::runtime_error&) {
-      job = client->job(job.name());  // a slow machine, or sanitizers
+      job = client->job(job.name());  // waits longer, for slow machines and sanitizers
     }
   }
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
@@ -249,7 +249,8 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
        {"surface_map.ply", "film_map.exr", "stretch.png", "predicted.png", "report.json"}) {
     EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
   }
-  EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false) << "dpi is part of the inputs";
+  EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false)
+      << "another dpi is another input, so the cache must not be used";
   v1::Job again;
   ASSERT_TRUE(client->create(request, again).ok());
   EXPECT_TRUE(again.cache_hit());

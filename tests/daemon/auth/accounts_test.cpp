@@ -42,7 +42,7 @@ TEST_F(Users, LastAdminCannotBeRemoved) {
   EXPECT_EQ(accounts->users().update("ann", {{}, true}).error().reason, "LAST_ADMIN");
   add("bea", Role::kAdmin);
   EXPECT_TRUE(accounts->users().update("ann", {{}, true}));
-  EXPECT_EQ(accounts->users().remove("bea").error().reason, "LAST_ADMIN");  // ann is barred
+  EXPECT_EQ(accounts->users().remove("bea").error().reason, "LAST_ADMIN");  // ann is disabled
   EXPECT_TRUE(accounts->users().remove("ann"));
 }
 
@@ -97,7 +97,7 @@ TEST_F(Users, DeletingAUserDeletesKeysAndSessions) {
   const auto key = accounts->keys().create({"mae", "k", Role::kMaker, 0}).value();
   const auto link = accounts->sessions().make_link("mae").value();
   ASSERT_TRUE(accounts->users().remove("mae"));
-  add("mae");  // another user of that name
+  add("mae");  // another user with the same name
   for (int i = 0; i < 2; ++i, open()) {
     EXPECT_FALSE(accounts->sessions().caller(session.token));
     EXPECT_FALSE(accounts->keys().caller(key.second));
@@ -173,7 +173,8 @@ TEST_F(Sessions, EndWhenUnused) {
   EXPECT_FALSE(accounts->sessions().caller(in.token));
   ASSERT_TRUE(accounts->clean_up());
   now_ms -= 12 * kHour_ms;
-  EXPECT_FALSE(accounts->sessions().caller(in.token));  // gone for good
+  // A session that has ended stays ended, whatever the clock says.
+  EXPECT_FALSE(accounts->sessions().caller(in.token));
 }
 
 TEST_F(Sessions, AreNotKeptAliveByListing) {

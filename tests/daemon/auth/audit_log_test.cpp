@@ -1,4 +1,3 @@
-// The audit log.
 #include "daemon/auth/audit_log.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +70,8 @@ TEST_F(Audit, WaitForAHangingStoreTimesOut) {
   EXPECT_FALSE(
       log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::milliseconds(50)));
   ASSERT_TRUE(other->run("COMMIT"));
-  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // written later
+  // The entry is written once the store responds.
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);
 }
 
 TEST_F(Audit, FailingStoreEndsTheWaitAtOnce) {
@@ -82,7 +82,7 @@ TEST_F(Audit, FailingStoreEndsTheWaitAtOnce) {
   log->note(entry("ann", "RigService.Home"));
   const auto entries = log->list({"", "", 0, 10}).value();
   ASSERT_EQ(entries.size(), 2U);
-  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is reported
+  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // an entry reports the loss
 }
 
 TEST_F(Audit, EntriesAreKeptForAYear) {

@@ -10,13 +10,13 @@ namespace {
 
 class LoginThrottleTest : public ::testing::Test {
  protected:
-  /// Fails until it has to wait; returns the number of attempts.
+  /// Fails to sign in until a wait is required; returns the number of attempts before that.
   int fail_at_once(const std::string& name, const std::string& peer) {
     int count = 0;
     while (attempts.begin(name, peer) == 0) ++count;
     return count;
   }
-  /// Fails `times` times, waiting as long as required; returns the last wait.
+  /// Fails to sign in `times` times and waits as long as required; returns the last wait.
   std::int64_t fail_patiently(const std::string& name, const std::string& peer, int times) {
     std::int64_t wait_ms = 0;
     for (int i = 0; i < times;) {

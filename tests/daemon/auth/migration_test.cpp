@@ -113,7 +113,7 @@ constexpr const char* kLatest = "4";
 
 constexpr std::int64_t kMonth_ms = 30LL * 24 * 3600 * 1000;
 
-// One row in each table of version 2 that a used store has: ann's finished job 1 with an asset,
+// Rows of a used store of version 2, in each of its tables: ann's finished job 1 with an asset,
 // bea's queued job 2 with the same asset, and an unused asset.
 constexpr std::array kUsed{
     "INSERT INTO assets VALUES ('aa', 4, 'model/obj', 5), ('bb', 6, 'image/png', 5)",
@@ -167,7 +167,7 @@ class Migration : public ::testing::Test {
 
 TEST_F(Migration, Version1KeepsItsDataAndAcceptsUsers) {
   make_version_1();
-  for (int i = 0; i < 2; ++i) {  // after the migration it opens without changes
+  for (int i = 0; i < 2; ++i) {  // the second time, the store opens without changes
     const auto database = open_store(layout.database());
     ASSERT_TRUE(database) << database.error().message;
     EXPECT_EQ(version_of(**database), kLatest);
@@ -222,7 +222,7 @@ TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
     EXPECT_EQ(accounts->keys().get("k")->display_name, "nightly");
     auth::AuditLog audit(*database, system_clock_ms);
     EXPECT_EQ(audit.list({})->size(), 1U);
-    // New columns and tables exist.
+    // The new columns and tables must exist.
     EXPECT_TRUE(retention.pin(1, true)->pinned);
     EXPECT_TRUE(retention.pin(1, false));
     EXPECT_TRUE(database->run("UPDATE jobs SET purge_ms=9 WHERE id=1"));
@@ -234,7 +234,8 @@ TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
   {
     const auto database = Database::open(layout.database(), "").value();
     for (const char* const statement : kVersion3) ASSERT_TRUE(database->run(statement));
-    // Jobs 3 to 6: each running, the dip waiting for its operator.
+    // Jobs 3 to 7: a running simulation, a dip that waits for its operator, a running print, a
+    // running capture, and a queued simulation.
     for (const char* const row :
          {"'simulate', 3", "'dip', 2", "'print', 3", "'capture', 3", "'simulate', 1"}) {
       ASSERT_TRUE(database->run(

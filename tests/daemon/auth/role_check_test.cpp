@@ -11,7 +11,7 @@ namespace {
 
 using auth::Role;
 
-/// A service with one method that has these options.
+/// Creates services with one method that has the given options.
 class MethodOptions : public ::testing::Test {
  protected:
   Result<Need> need(const google::protobuf::MethodOptions& options) {
@@ -65,10 +65,10 @@ TEST_F(MethodOptions, RoleOrWithoutSignInIsAccepted) {
   EXPECT_FALSE(open->has_value());
 }
 
-const std::string kGet = "/hydroprint.v1.QueueService/GetQueue";      // VIEWER
-const std::string kPause = "/hydroprint.v1.QueueService/PauseQueue";  // OPERATOR
-const std::string kStop = "/hydroprint.v1.RigService/StopMotion";     // VIEWER
-const std::string kSignIn = "/hydroprint.v1.PeopleService/SignIn";    // without sign-in
+const std::string kGet = "/hydroprint.v1.QueueService/GetQueue";      // needs VIEWER
+const std::string kPause = "/hydroprint.v1.QueueService/PauseQueue";  // needs OPERATOR
+const std::string kStop = "/hydroprint.v1.RigService/StopMotion";     // needs VIEWER
+const std::string kSignIn = "/hydroprint.v1.PeopleService/SignIn";    // needs no sign-in
 
 class Admission : public auth::PeopleTest {
  protected:

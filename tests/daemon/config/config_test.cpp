@@ -136,7 +136,7 @@ std::string rig_problem(const Config& config) {
 
 TEST(Config, UnsafeRigIsRefusedWithTheKeysName) {
   Config config;
-  EXPECT_FALSE(read_controller_config(config)->has_value()) << "no drive, no rig";
+  EXPECT_FALSE(read_controller_config(config)->has_value()) << "without a drive there is no rig";
   config.rig_drive = "tcp:127.0.0.1:1502";
   EXPECT_TRUE(says(rig_problem(config), "rig.profile is empty"));
   config.rig_profile = HYDROPRINT_PROFILES "/virtual.toml";

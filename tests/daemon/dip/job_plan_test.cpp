@@ -79,7 +79,7 @@ TEST_F(DipPlanOfJob, SpecOverridesSimulationWhichOverridesDefaults) {
   auto plan = plan_of(spec, *jobs, layout);
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_EQ(plan->depth_mm, 42.5);
-  EXPECT_EQ(plan->retract_speed_mm_per_s, 4) << "same as the descent";
+  EXPECT_EQ(plan->retract_speed_mm_per_s, 4) << "by default, the speed of the descent";
   EXPECT_EQ(plan->clocks.soak_s, 70);
   EXPECT_EQ(plan->clocks.activation_window_s, 60);
   EXPECT_EQ(plan->clearance_mm, 20);

@@ -7,7 +7,7 @@
 namespace hydroprint::dip {
 namespace {
 
-const rig::RigConfig kConfig;  // soft limits 2 to 298 mm, at most 10 mm/s
+const rig::RigConfig kConfig;  // soft limits 2 and 298 mm, at most 10 mm/s
 
 drive::DriveProfile profile() {
   return drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml").value();
@@ -44,7 +44,7 @@ TEST(DipPlan, DescendsFromClearanceToDepthAndReturns) {
 TEST(DipPlan, RetractionEndsAboveTheWater) {
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, 99, kConfig, profile())->up_mm, 80);
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, -1, kConfig, profile())->up_mm, 2)
-      << "the axis may rest outside its limits, but is not sent there";
+      << "an axis that rests outside its limits is not sent back there";
 }
 
 TEST(DipPlan, ClearanceShrinksNearTheLimit) {
@@ -55,7 +55,8 @@ TEST(DipPlan, TargetsOutOfReachAreRefused) {
   EXPECT_EQ(refusal(plan_of_depth(198), 100), "");
   EXPECT_EQ(refusal(plan_of_depth(198.1), 100), "LIMIT_EXCEEDED");
   EXPECT_EQ(refusal(plan_of_depth(10), 3), "");
-  EXPECT_EQ(refusal(plan_of_depth(10), 2.9), "LIMIT_EXCEEDED") << "less than 1 mm to run up";
+  EXPECT_EQ(refusal(plan_of_depth(10), 2.9), "LIMIT_EXCEEDED")
+      << "less than 1 mm of way to accelerate";
   EXPECT_EQ(refusal(plan_of_depth(10), -0.1), "LIMIT_EXCEEDED");
   Plan deep = plan_of_depth(296);
   EXPECT_FALSE(check(deep, kConfig));
@@ -81,14 +82,15 @@ TEST(DipPlan, ProgressGrowsFromZeroToOneAndNeverFalls) {
     }
   }
   EXPECT_DOUBLE_EQ(before, 1);
-  // 20 mm up, 60 s, 20 s, 40 mm down, 2 s, 115 mm up, at 5 mm/s and 200 mm/s2.
+  // 20 mm up, 60 s of soaking, 20 s of activation, 40 mm down, 2 s at depth, 115 mm up; at 5 mm/s
+  // and 200 mm/s^2.
   const ProgressEstimate begin = estimate_progress({}, 0, plan, ways, 200);
   EXPECT_EQ(begin.fraction, 0);
   EXPECT_NEAR(begin.remaining_s, 4 + 60 + 20 + 8 + 2 + 23, 0.2);
 }
 
 TEST(DipPlan, ActivatorIsProportionalToTheFilmArea) {
-  const Plan plan;  // A4, 16 ml/m2
+  const Plan plan;  // the default: an A4 film and 16 ml/m2
   EXPECT_NEAR(plan.activator_ml(), 0.998, 0.001);
   EXPECT_NE(instruction(Step::kSprayActivator, plan).find("1.0 ml"), std::string::npos);
 }

@@ -42,8 +42,9 @@ TEST(DipRecord, DepthsAreRelativeToFirstContact) {
 
 TEST(DipRecord, SpeedIsMeasuredOnlyUnderWater) {
   std::vector<rig::Sample> samples;
-  for (int i = 0; i < 100; ++i) samples.push_back(sample(0.02 * i, 30 + 0.4 * i));      // 20 mm/s
-  for (int i = 0; i < 100; ++i) samples.push_back(sample(2 + 0.02 * i, 70 + 0.1 * i));  // 5 mm/s
+  // 20 mm/s above the water, and then 5 mm/s under water.
+  for (int i = 0; i < 100; ++i) samples.push_back(sample(0.02 * i, 30 + 0.4 * i));
+  for (int i = 0; i < 100; ++i) samples.push_back(sample(2 + 0.02 * i, 70 + 0.1 * i));
   const auto speed = immersion_speed(samples, 1, 70);
   EXPECT_EQ(speed.samples, 100);
   EXPECT_NEAR(speed.speed_mm_per_s, 5, 1e-9);

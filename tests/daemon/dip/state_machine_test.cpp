@@ -11,11 +11,12 @@ namespace {
 
 using Is = Event::Kind;
 
-constexpr double kStep_s = 30;  // time between two events, after which a clock may be over or not
+// Time between two events: shorter than some clocks and longer than others.
+constexpr double kStep_s = 30;
 const Clocks kClocks{60, 20, 60, false};
 constexpr int kEvents = static_cast<int>(Is::kShutdown) + 1;
 
-/// Every event at this time, with every step to confirm.
+/// Every event at this time; the confirmation once for every step.
 std::vector<Event> all_events(double time_s) {
   std::vector<Event> out;
   for (int kind = 0; kind < kEvents; ++kind) {
@@ -27,7 +28,8 @@ std::vector<Event> all_events(double time_s) {
   return out;
 }
 
-/// The part of the state that determines what may happen next, without times.
+/// Whether two states are equal except for times. Only the compared fields determine what may
+/// happen next.
 bool alike(const Stand& a, const Stand& b) {
   return a.step == b.step && a.ending == b.ending && a.over == b.over && a.late == b.late &&
          a.loaded_mm == b.loaded_mm && a.contact_mm == b.contact_mm &&
@@ -40,7 +42,8 @@ struct Change {
   Outcome outcome;
 };
 
-/// All transitions from all reachable states, each before and after the end of its clock.
+/// All transitions from all reachable states, with events before and after the end of the state's
+/// clock.
 std::vector<Change> all_changes(const Clocks& clocks) {
   std::vector<Stand> known{{}};
   std::vector<Change> changes;
@@ -197,7 +200,7 @@ TEST_P(DipTransitions, KnowsLoadContactAndSprayAfterwards) {
   }
 }
 
-/// A dip driven by hand: feeds events and returns the actions.
+/// A dip into which a test feeds events; returns the resulting actions.
 class Walk {
  public:
   Action feed(Is is, double time_s, double position_mm = 0) {
@@ -251,7 +254,7 @@ TEST(Procedure, LateFilmCausesAWarningAndNoRefusal) {
   Walk dip;
   dip.to_start_of_the_dip();
   dip.feed(Is::kTick, 180);
-  EXPECT_FALSE(dip.stand.late) << "100 s + 20 s wait + 60 s window";
+  EXPECT_FALSE(dip.stand.late) << "sprayed at 100 s, then 20 s of waiting and a window of 60 s";
   dip.feed(Is::kTick, 180.1);
   EXPECT_TRUE(dip.stand.late);
   EXPECT_EQ(dip.feed(Is::kConfirm, 400), Action::kDip);

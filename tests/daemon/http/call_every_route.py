@@ -1,5 +1,5 @@
-"""Calls every route in the OpenAPI document of a daemon, in the course of a day at a rig, and validates each answer
-against the document. Then calls each route without authentication, and for resources that do not exist.
+"""Calls every route in the OpenAPI document of a daemon, in the order of a usual day at a rig, and validates
+each answer against the document. Then calls each route without authentication, and for resources that do not exist.
 Usage: call_every_route.py FOLDER_OF_PROGRAMS RIG_PROFILE"""
 import base64
 import hashlib
@@ -47,7 +47,7 @@ class Api:
                            for path, method, operation in check_openapi.operations_of(self.closed)}
 
     def send(self, method, target, body=None, headers=(), until=None):
-        """`until`: how many events of an endless answer to read."""
+        """Sends a request and returns the answer. `until`: number of events to read from an endless answer."""
         connection = http.client.HTTPConnection(self.address, timeout=PATIENCE_S)
         connection.request(method, target, body, dict(headers) | self.identity)
         response = connection.getresponse()
@@ -58,7 +58,7 @@ class Api:
 
     @staticmethod
     def events(response, count):
-        """The data of the first `count` events of a stream, or of all until it ends, as a JSON list."""
+        """Returns the data of the first `count` events of a stream, or of fewer if the stream ends, as a JSON list."""
         found, kind = [], ""
         while len(found) < count and kind != "end":
             line = response.readline()
@@ -98,7 +98,7 @@ class Api:
                 require(not troubles, name, value, troubles)
 
     def call(self, name, *args, **more):
-        """As ask(), and the call must succeed."""
+        """Same as ask(), but the call must succeed."""
         answer = self.ask(name, *args, **more)
         require(answer.status < 400, name, answer.status, answer.body)
         self.done.add(name)
@@ -135,7 +135,7 @@ def create(api, spec, query=None):
 
 
 def jobs(api, asset):
-    """The number of a successful simulation."""
+    """Calls the operations on jobs. Returns the number of a successful simulation."""
     mesh = {"mesh": {"name": "tetrahedron.obj", "asset": asset}, "film": "circle:30", "depthMm": 3, "dpi": 72}
     api.call("PauseQueue", {"reason": "put in order"})
     first, second = (create(api, {"simulate": mesh, "displayName": name}) for name in ("first", "second"))
@@ -276,7 +276,7 @@ def places_of(api, name):
 
 
 def wrong_calls(api):
-    """Calls for resources that do not exist, and without authentication."""
+    """Calls every operation for resources that do not exist, and without authentication."""
     for name in api.operations:
         if places_of(api, name):
             answer = ask_for_nothing(api, name)

@@ -51,12 +51,12 @@ TEST_F(HttpFiles, BrokenUploadIsResumed) {
   }
   EXPECT_EQ(state.field("upload-offset"), "150000");
   EXPECT_EQ(state.field("upload-length"), "300000");
-  HttpAnswer wrong;  // the broken connection may still hold the upload
+  HttpAnswer wrong;  // repeated, because the broken connection may still lock the upload
   for (int i = 0; i < 1000 && wrong.reason() != "OFFSET_MISMATCH"; ++i) {
     wrong = patch(path, 100'000, bytes.substr(100'000));
   }
   EXPECT_EQ(wrong.reason(), "OFFSET_MISMATCH");
-  HttpAnswer done;  // the broken connection may still hold the upload
+  HttpAnswer done;  // repeated for the same reason
   for (int i = 0; i < 1000 && done.status != 200; ++i)
     done = patch(path, 150'000, bytes.substr(150'000));
   EXPECT_EQ(done.status, 200) << done.body;

@@ -27,7 +27,7 @@ std::string lower_case(std::string text) {
 }
 
 std::shared_ptr<SSL> speak_tls(int socket, const std::string& ca_pem) {
-  ::signal(SIGPIPE, SIG_IGN);  // OpenSSL does not suppress it for the test
+  ::signal(SIGPIPE, SIG_IGN);  // OpenSSL writes without MSG_NOSIGNAL
   const std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_client_method()), SSL_CTX_free);
   const std::shared_ptr<BIO> reader(BIO_new_mem_buf(ca_pem.data(), -1), BIO_free);
   const std::shared_ptr<X509> authority(PEM_read_bio_X509(reader.get(), nullptr, nullptr, nullptr),
@@ -39,7 +39,7 @@ std::shared_ptr<SSL> speak_tls(int socket, const std::string& ca_pem) {
   SSL_set_fd(tls.get(), socket);
   if (SSL_connect(tls.get()) != 1) {
     ::close(socket);
-    throw std::runtime_error("no TLS with the server");
+    throw std::runtime_error("the TLS handshake with the server failed");
   }
   return tls;
 }
@@ -132,7 +132,7 @@ std::string HttpConnection::receive() {
   const ssize_t got = tls_ ? SSL_read(tls_.get(), buffer.data(), static_cast<int>(buffer.size()))
                            : ::recv(socket_, buffer.data(), buffer.size(), 0);
   if (got <= 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-    throw std::runtime_error("the server sends nothing");
+    throw std::runtime_error("the server sent nothing for 20 s");
   }
   return {buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))};
 }
@@ -158,7 +158,8 @@ std::string HttpConnection::line() {
 HttpAnswer HttpConnection::read_head() {
   HttpAnswer answer;
   const std::string status = line();
-  if (!status.starts_with("HTTP/1.1 ")) throw std::runtime_error("no HTTP: " + status);
+  if (!status.starts_with("HTTP/1.1 "))
+    throw std::runtime_error("not an HTTP/1.1 answer: " + status);
   answer.status = std::stoi(status.substr(9));
   for (std::string text = line(); !text.empty(); text = line()) {
     const std::size_t colon = text.find(": ");

@@ -11,7 +11,7 @@ using SSL = struct ssl_st;
 
 namespace hydroprint::tests {
 
-/// An answer as received; names of fields in lower case.
+/// An answer as received, with the names of header fields in lower case.
 struct HttpAnswer {
   int status = 0;
   std::map<std::string, std::string> fields;
@@ -34,7 +34,7 @@ struct HttpEvent {
 class HttpConnection {
  public:
   /// @param address  "127.0.0.1:40123"
-  /// @param receive_buffer_bytes  small: the kernel buffers little unread data; 0: its default
+  /// @param receive_buffer_bytes  size of the socket's receive buffer; 0: the system's default
   /// @param ca_pem  the trusted authority for "localhost"; empty: no TLS
   explicit HttpConnection(const std::string& address, int receive_buffer_bytes = 0,
                           const std::string& ca_pem = "");
@@ -44,7 +44,7 @@ class HttpConnection {
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
 
-  /// Sends bytes; false if the server accepts no more.
+  /// Sends bytes; false if the server no longer accepts any.
   bool send(std::string_view bytes);
   /// Sends one request with its body and reads the answer.
   HttpAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
@@ -54,7 +54,7 @@ class HttpConnection {
   HttpAnswer read_answer(bool has_body = true);
   /// Reads only the head of the next answer.
   HttpAnswer read_head();
-  /// Reads the next event of a stream whose head was read; kind "" for a ping.
+  /// Reads the next event of a stream whose head was read. A ping has the kind "".
   HttpEvent read_event();
   /// Whether the stream's body ends here, so that the connection can be reused.
   bool is_stream_over() { return stream_.empty() && chunk().empty(); }

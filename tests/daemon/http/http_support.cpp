@@ -34,7 +34,7 @@ void HttpLimits::serve(const http::Limits& limits) {
     if (!identity) throw std::runtime_error(identity.error().message);
     options.identity = [shown = *identity] { return shown; };
   }
-  // The daemon behind the server makes its own decision.
+  // This server admits every caller; the daemon behind it checks them.
   const auto admit = [](std::string_view, const auth::Credentials&) {
     return Result<std::optional<auth::Caller>>(std::nullopt);
   };

@@ -95,7 +95,8 @@ TEST_P(HttpLimits, ClientThatDoesNotReadIsDisconnectedAndMayReturn) {
   stream.send(request_text("GET", "/v1/events:watch?topics=job"));
   stream.read_head();
   const HttpEvent begin = stream.read_event();
-  // Jobs with long labels that finish at once, since their results are cached.
+  // Creates events with much data: jobs with long labels, which finish at once because their
+  // results are cached.
   nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", upload("")}}}}}};
   for (int i = 0; i < 32; ++i) job["labels"][std::to_string(i)] = std::string(200, 'x');
   HttpConnection other = connect();

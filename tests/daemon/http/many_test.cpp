@@ -28,7 +28,7 @@ TEST_F(HttpTest, ThousandsOfCallsGetTheirOwnAnswers) {
     threads.emplace_back([&, i] {
       HttpConnection connection(daemon.http());
       for (int call = 0; call < kCallsOfEach; ++call) {
-        // Sometimes one disconnects during a call, and a new one connects.
+        // Sometimes the connection breaks during a call, and a new one is made.
         if (call % 50 == 49) {
           connection.send(request_text("GET", "/v1/jobs"));
           connection = HttpConnection(daemon.http());
@@ -48,7 +48,7 @@ TEST_F(HttpTest, ThousandsOfCallsGetTheirOwnAnswers) {
 
 TEST_F(HttpTest, IdleConnectionsCostLittle) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
-  constexpr std::size_t kIdle = 900;  // the test itself needs a thousand descriptors
+  constexpr std::size_t kIdle = 900;  // one descriptor each; the test may open about 1000
   const HttpAnswer warm = get("/v1/queue");
   const std::size_t before = memory_bytes(daemon.pid());
   std::vector<HttpConnection> idle;

@@ -31,7 +31,8 @@ TEST_F(HttpRig, StopNeedsNoLeaseAndDoesNotWait) {
   EXPECT_TRUE(rig.gets_to(0, 1));
 }
 
-// The header fields and body of a stop, after the request line and Host.
+// An unusual stop request. `query` follows the path, and `rest` (header fields and body) follows
+// the Host field.
 struct OddStop {
   const char* name;
   std::string query, rest;
@@ -74,7 +75,7 @@ TEST_F(HttpRig, StopIgnoresBodyQueryAndHeader) {
   ann.make_ready();
   for (const OddStop& odd : odd_stops()) {
     SCOPED_TRACE(odd.name);
-    // Far enough that the axis does not come to rest by itself.
+    // The target is so far that the axis does not reach it during the test.
     ASSERT_TRUE(ann.move_to(290, 5).ok());
     ASSERT_TRUE(rig.gets_to(5));
     HttpConnection connection(daemon.http());
@@ -141,7 +142,7 @@ TEST_F(HttpRig, StreamShowsTheRigMoving) {
     const auto now = event.json().at("rig");
     is_there = now.at("state") == "IDLE" && now.at("positionMm").get<double>() > 11.9;
   }
-  EXPECT_GT(samples, 3);  // one second of motion, at most ten messages a second
+  EXPECT_GT(samples, 3);  // one second of motion, with up to ten messages per second
   EXPECT_LT(samples, 60);
   EXPECT_NE(
       ask(daemon.http(), "GET", "/metrics").body.find("hydroprint_rig_state{state=\"IDLE\"} 1\n"),

@@ -159,7 +159,7 @@ TEST_F(HttpTest, MetricsCoverJobsRigAndServer) {
   const auto has = [&](const std::string& line) {
     return text.find("\n" + line) != std::string::npos;
   };
-  const auto has_come = [&] {  // earlier connections are closed
+  const auto has_come = [&] {  // also waits until earlier connections are closed
     return has("hydroprint_jobs_finished_total{") && has("hydroprint_http_connections 1\n");
   };
   for (int i = 0; i < 1000 && !has_come(); ++i) text = get("/metrics").body;

@@ -16,7 +16,7 @@ class HttpSession : public PeopleApi {
   HttpAnswer get(const std::string& target, const std::string& fields = "") {
     return HttpConnection(daemon.http()).ask("GET", target, "", fields);
   }
-  /// The Cookie header of a signed-in browser, and the token that its page knows.
+  /// The Cookie header of a signed-in browser, and the CSRF token of its page.
   struct Browser {
     std::string cookie, csrf;
     [[nodiscard]] std::string both() const {
@@ -28,7 +28,8 @@ class HttpSession : public PeopleApi {
     EXPECT_EQ(answer.status, 200) << answer.body;
     const std::string set = answer.field("set-cookie");
     EXPECT_NE(set.find("; HttpOnly; SameSite=Strict"), std::string::npos) << set;
-    EXPECT_EQ(answer.json().at("sessionToken"), "") << "hidden from scripts";
+    EXPECT_EQ(answer.json().at("sessionToken"), "")
+        << "scripts of the page must not see the session token";
     return {"Cookie: " + set.substr(0, set.find(';')) + "\r\n", answer.json().at("csrfToken")};
   }
 };
@@ -38,7 +39,7 @@ TEST_F(HttpSession, CookieIsHiddenFromScripts) {
   const HttpAnswer who = get("/v1/session", maker.cookie);
   EXPECT_EQ(who.status, 200) << who.body;
   EXPECT_EQ(who.json().at("user"), "maker");
-  EXPECT_EQ(who.json().at("csrfToken"), maker.csrf) << "a reloaded page gets it again";
+  EXPECT_EQ(who.json().at("csrfToken"), maker.csrf) << "a reloaded page gets the same token";
   EXPECT_EQ(get("/v1/jobs").status, 401);
   EXPECT_EQ(get("/v1/jobs", maker.cookie).status, 200);
 }
@@ -120,7 +121,7 @@ TEST_F(HttpSession, EventStreamEndsWithTheSession) {
     EXPECT_NE(event.data.find("SIGN_IN_NEEDED"), std::string::npos) << event.data;
     return;
   }
-  FAIL() << "the stream continued";
+  FAIL() << "the stream continued after the sign-out";
 }
 
 }  // namespace

@@ -55,7 +55,9 @@ TEST_F(HttpEvents, StreamResumesAfterTheLastEvent) {
   ASSERT_GT(all.size(), 3U);
   HttpConnection rest = watch(target, "Last-Event-ID: " + all[1].id + "\r\n");
   const auto events = until(rest, "end");
-  EXPECT_EQ(events.size(), all.size() - 1);  // the current state of the job, then later events
+  // A resumed stream begins with the current state of the job, then sends the events after the last
+  // one.
+  EXPECT_EQ(events.size(), all.size() - 1);
   EXPECT_EQ(events[1].id, all[2].id);
   const HttpAnswer never = get(target, "Last-Event-ID: 999999\r\n");
   EXPECT_EQ(never.status, 400);
@@ -154,13 +156,14 @@ TEST_F(HttpEvents, DisconnectFreesTheSlot) {
     }
     EXPECT_EQ(get("/v1/queue").status, 200);
     streams.clear();
-    // The limit is 128, so the next hundred streams need the slots of these.
+    // At most 128 streams may be open, so the next hundred need the slots of these.
     std::string metrics;
     for (int i = 0;
          i < 1000 && metrics.find("hydroprint_http_connections 1\n") == std::string::npos; ++i) {
       metrics = get("/metrics").body;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its threads poll twice a second
+    // The server's threads check twice a second for closed streams.
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
   }
 }
 

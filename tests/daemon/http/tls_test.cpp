@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 
 constexpr const char* kPassword = "correct horse";
 constexpr std::string_view kBeginOfHandshake("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
-constexpr int kMostLooks = 400;  // 20 s; the daemon checks every two seconds
+constexpr int kMostLooks = 400;  // one every 50 ms, so 20 s; the daemon checks the files every 2 s
 
 // A daemon with a certificate, and an admin who signs in with the first link.
 class Tls : public ::testing::Test {
@@ -40,7 +40,7 @@ class Tls : public ::testing::Test {
   [[nodiscard]] std::string grpc_address() const {
     return "localhost" + daemon.address().substr(daemon.address().rfind(':'));
   }
-  /// The Host header of a browser.
+  /// The Host header that a browser sends.
   static std::string named(const std::string& host) { return "Host: " + host + "\r\n"; }
   HttpAnswer get_as(const std::string& host, const std::string& target = "/healthz") {
     HttpConnection connection = connect();
@@ -105,7 +105,7 @@ TEST_F(Tls, SessionCookieIsSecure) {
                          fields + "Origin: " + origin + "\r\n");
   };
   EXPECT_EQ(pause("http://localhost").reason(), "ORIGIN_FORBIDDEN")
-      << "an origin without TLS may be forged";
+      << "anyone on the network can forge a page from an origin without TLS";
   EXPECT_EQ(pause("https://localhost").status, 200);
   const HttpAnswer out = connect().ask("POST", "/v1/session:signOut", "{}", fields);
   EXPECT_NE(out.field("set-cookie").find("Secure; Max-Age=0"), std::string::npos);
@@ -212,7 +212,7 @@ TEST_F(Tls, InvalidPairKeepsThePreviousOne) {
     std::this_thread::sleep_for(milliseconds(50));
     is_shown = shows(other);
   }
-  EXPECT_TRUE(is_shown) << "a valid pair is loaded later";
+  EXPECT_TRUE(is_shown) << "a valid pair must be loaded after an invalid one";
 }
 
 TEST_F(Tls, ExpiryIsAMetricAndAWarning) {
@@ -273,7 +273,8 @@ TEST_P(TlsLimits, PendingHandshakesCountAsConnections) {
   HttpConnection one(address());
   HttpConnection two(address());
   HttpAnswer answer;
-  for (int i = 0; i < 1000 && answer.status != 503; ++i) {  // until both were accepted
+  // Repeats the request until the server has accepted both connections.
+  for (int i = 0; i < 1000 && answer.status != 503; ++i) {
     answer = connect().ask("GET", "/v1/queue");
   }
   EXPECT_EQ(answer.reason(), "CONNECTIONS_FULL");
@@ -294,14 +295,14 @@ TEST_P(TlsLimits, ServerStopsDuringPendingHandshakes) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-// Errors of certificate and key, one by one.
+// Each error that certificate and key files can have.
 class TlsIdentity : public ::testing::Test {
  protected:
   std::string refusal() const {
     const auto read = tls::Identity::read(files.certificate, files.key);
     return read ? "accepted" : read.error().message;
   }
-  /// Expects the same error of the daemon, on one line.
+  /// Expects an error that contains `part`, from read() and, in one line, from the daemon.
   void expect_refusal(const std::string& part) const {
     EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
     const Ended ended = run_daemon({"--tls-certificate", files.certificate.string(), "--tls-key",

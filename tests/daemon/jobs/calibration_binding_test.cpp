@@ -22,7 +22,8 @@ TEST(Staleness, DependsOnAxisHomingAndDips) {
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED});
   now = then;
   now.homed = false;
-  EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED}) << "the reference was lost";
+  EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED})
+      << "the axis lost its reference, so it must be homed again";
   now = then;
   now.dips = 1;
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::DIPPED});
@@ -31,7 +32,7 @@ TEST(Staleness, DependsOnAxisHomingAndDips) {
 TEST(Staleness, IsUnknownWithoutARig) {
   EXPECT_EQ(staleness({}, {true, true, 5, 1, 1}), Why{});
   EXPECT_EQ(staleness({true, true, 5, 1, 1}, {}), Why{v1::Calibration::HOMED})
-      << "there was a rig, but none is configured now";
+      << "the rig of the calibration is no longer configured";
 }
 
 TEST(CalibrationFile, MissingAndInvalidKeysAreNamed) {

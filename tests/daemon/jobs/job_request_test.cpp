@@ -43,8 +43,8 @@ SpecOfAKind given(const NewJob& request) {
   return out;
 }
 
-/// Expects that the worker receives exactly this spec, apart from the threads, which the pool
-/// chooses.
+/// Expects that the worker receives exactly this spec, except for the number of threads, which the
+/// worker pool chooses.
 template <class SpecOfAKind>
 void expect_given(const NewJob& request, SpecOfAKind wanted) {
   wanted.clear_threads();
@@ -90,7 +90,7 @@ void expect_inertia_for_the_sheet_alone(v1::Job& job, SpecOfAVerb& spec, const s
   };
   EXPECT_FALSE(has_inertia());
   spec.set_inertia(true);
-  EXPECT_TRUE(has_inertia()) << "the worker's default is the sheet";
+  EXPECT_TRUE(has_inertia()) << "the default model is the sheet, which may have inertia";
   spec.set_model(v1::MODEL_SHEET);
   EXPECT_TRUE(has_inertia());
   spec.set_model(v1::MODEL_STOKES);
@@ -243,7 +243,7 @@ TEST(Spec, PrintImageRefusesImpossiblePages) {
   EXPECT_EQ(refused([](auto& spec) { spec.set_printer_margin_mm(95); }), "accepted");
   EXPECT_EQ(refused([](auto& spec) { spec.set_printer_margin_mm(95.5); }),
             "print_image.printer_margin_mm")
-      << "A4 is 210 mm wide";
+      << "twice this margin leaves less than 20 mm of the 210 mm of A4";
 }
 
 TEST(Spec, TemplateHasObjectFilmAndPaper) {
@@ -359,7 +359,8 @@ TEST(Spec, EveryFieldOfCalibrateReachesTheWorker) {
   expect_given(*request, job.calibrate());
   job = calibrate_job();
   set_file(*job.mutable_calibrate()->add_frames(), "other/frames.json");
-  EXPECT_EQ(refused_field(job), "calibrate.frames") << "one view";
+  EXPECT_EQ(refused_field(job), "calibrate.frames")
+      << "calibrate takes the frames of only one view";
   job.mutable_calibrate()->clear_frames();
   EXPECT_EQ(refused_field(job), "calibrate.frames");
   job = calibrate_job();
@@ -442,10 +443,10 @@ TEST(Spec, HostileNamesAndTextsAreRefused) {
   EXPECT_EQ(refused_field(job), "ID_INVALID");
   job = job_with_mesh();
   set_file(*job.mutable_simulate()->mutable_texture(), "spot.obj");
-  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "the same name twice";
+  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "two files have the same name";
   job = job_with_mesh();
   set_file(*job.mutable_simulate()->mutable_texture(), "spot.obj/a.png");
-  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "a file as a folder";
+  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "the name uses the file spot.obj as a folder";
   job = job_with_mesh();
   job.mutable_simulate()->set_film("A4\n--out=/");
   EXPECT_EQ(refused_field(job), "simulate.film");

@@ -13,7 +13,7 @@ class JobMetricsTest : public StoreTest {
   [[nodiscard]] bool has(const std::string& line) const {
     return metrics.text().find("\n" + line + "\n") != std::string::npos;
   }
-  /// Waits until the metrics contain this line.
+  /// Waits until the metrics contain this line; false after 10 s.
   [[nodiscard]] bool comes(const std::string& line) const {
     for (int i = 0; i < 1000 && !has(line); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -54,7 +54,7 @@ TEST_F(JobMetricsTest, StagesBeyondTheLimitCountAsOther) {
     ASSERT_TRUE(jobs->report(id, {0.5, "stage " + std::to_string(stage), 0.5, 0}));
   }
   ASSERT_TRUE(jobs->cancel(id));
-  // QUEUED, starting, and 298 names of the worker are counted by name.
+  // The limit is 300 names: QUEUED, starting, and the first 298 stages of the worker.
   EXPECT_TRUE(comes("hydroprint_job_stage_seconds_count{kind=\"simulate\",stage=\"other\"} 12"));
   EXPECT_TRUE(has("hydroprint_job_stage_seconds_count{kind=\"simulate\",stage=\"stage 297\"} 1"));
   EXPECT_EQ(metrics.text().find("stage=\"stage 298\""), std::string::npos);

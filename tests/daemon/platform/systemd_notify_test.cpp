@@ -1,4 +1,4 @@
-// Messages to systemd, over the socket that it would provide.
+// Messages to systemd. The test provides the socket in place of systemd.
 #include "daemon/platform/systemd_notify.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ class ServiceManager : public ::testing::Test {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
     ::close(socket_);
   }
-  /// The next message; empty after two seconds without one.
+  /// The next message; empty if none arrives within two seconds.
   std::string messages(int flags = 0) {
     std::array<char, 512> bytes{};
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);
@@ -78,7 +78,7 @@ TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
     ++looks;
     return std::optional<std::uint64_t>(7);
   });
-  EXPECT_EQ(messages(), "WATCHDOG=1") << "nothing is known of the loop yet";
+  EXPECT_EQ(messages(), "WATCHDOG=1") << "the first look cannot show whether the loop hangs";
   while (looks < 10) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(messages(MSG_DONTWAIT), "");
 }

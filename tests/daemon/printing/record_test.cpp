@@ -64,7 +64,7 @@ TEST(PrintPlan, ReportsAreParsedAndInvalidOnesRefused) {
                                  plan));
   EXPECT_EQ(plan.pages, 2);
   EXPECT_EQ(plan.margin_mm, 3);
-  EXPECT_TRUE(plan.paper_mm == Eigen::Vector2d(210, 297)) << "as it lies in the tray";
+  EXPECT_TRUE(plan.paper_mm == Eigen::Vector2d(210, 297)) << "the paper lies upright in the tray";
   for (const char* report :
        {"", "[]", "{}", R"({"print": {"sheets": []}})",
         R"({"parameters": {"printer_margin_mm": 0}, "print": {"sheets": [{"size_mm": [0, 5]}]}})",

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 TEST(ErrorAnswer, HasTheHttpStatusOfItsCode) {
-  // google.rpc.Code, by number.
+  // The HTTP status of each google.rpc.Code, by its number.
   const int expected[] = {200, 499, 500, 400, 504, 404, 409, 403, 429,
                           400, 409, 400, 501, 500, 503, 500, 401};
   for (int code = 0; code < 17; ++code) EXPECT_EQ(http_status(code), expected[code]) << code;

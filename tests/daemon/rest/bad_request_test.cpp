@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// The wrong fields in a reply.
+// The field violations in an error reply.
 json field_violations(const Error& error) {
   const json answer = json::parse(error_answer(error).json);
   for (const json& detail : answer["error"]["details"]) {

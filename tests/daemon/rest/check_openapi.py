@@ -12,7 +12,7 @@ import jsonschema
 SCHEMA = "/usr/share/openapi-specification/schemas/v3.0/schema.json"
 METHODS = {"get", "put", "post", "delete", "patch", "head"}
 OPEN = {"GetHealth", "GetMetrics", "GetOpenApi", "SignIn"}  # operations without sign-in
-# Random requests may break these rules, which the services check.
+# Rules that the services check, so random requests may break them.
 RULES = {"required", "minimum", "maximum", "maxLength", "minItems", "maxItems", "maxProperties"}
 BY_HAND = {"GetHealth", "GetMetrics", "GetOpenApi", "DownloadArtifact", "HeadArtifact", "HeadUpload", "PatchUpload"}
 
@@ -148,7 +148,7 @@ def wrong_rules(document):
 
 
 def wrong_values(document):
-    """Defaults and examples that violate their own schemas."""
+    """Yields the defaults and examples that violate their own schemas."""
     for name, schema in document["components"]["schemas"].items():
         for field, value in schema.get("properties", {}).items():
             for keyword in ("default", "example"):
@@ -158,7 +158,7 @@ def wrong_values(document):
 
 
 def closed(document):
-    """The same document, except that unknown fields are errors in answers too."""
+    """Returns a copy of the document in which unknown fields are errors, in answers too."""
     document = copy.deepcopy(document)
     for _, node in everything_in(document):
         if isinstance(node, dict) and isinstance(node.get("properties"), dict) and "type" in node:
@@ -167,7 +167,7 @@ def closed(document):
 
 
 def check(value, schema, document, but=()):
-    """The violations in a value, except of the rules in `but`: random values lack fields that the services require."""
+    """Returns the violations in a value. `but`: rules to ignore, because random values lack required fields."""
     validator = jsonschema.Draft4Validator(schema, resolver=jsonschema.RefResolver("", document))
     return [f"{list(error.absolute_path)}: {error.message[:300]}" for error in validator.iter_errors(value)
             if error.validator not in but]
@@ -215,7 +215,7 @@ def main():
                                                    wrong_rules, wrong_values)
                 for trouble in look(document)]
     troubles += wrong_samples(document, samples)
-    print("\n".join(troubles) or f"{len(document['paths'])} paths, {len(samples)} samples, nothing is wrong")
+    print("\n".join(troubles) or f"{len(document['paths'])} paths, {len(samples)} samples, no violations")
     sys.exit(1 if troubles or not samples else 0)
 
 

@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::vector<std::string>;
 
-// Values of the template's variables in the path; nullopt if it does not match.
+// Values of the template's variables in the path; nullopt if the path does not match.
 std::optional<Values> values_of(const std::string& path_template, const std::string& path) {
   const auto parsed = parse_template(path_template);
   if (!parsed) throw std::logic_error(parsed.error().message);
@@ -104,7 +104,7 @@ class Regex {
   Regex(const Regex&) = delete;
   Regex& operator=(const Regex&) = delete;
 
-  // The texts that its groups match, from group 1 on.
+  // The texts that match the whole expression (first) and its groups; nullopt if there is no match.
   [[nodiscard]] std::optional<Values> groups(const std::string& text) const {
     regmatch_t found[10];
     if (regexec(&regex_, text.c_str(), std::size(found), found, 0) != 0) return std::nullopt;
@@ -121,7 +121,8 @@ class Regex {
   regex_t regex_{};
 };
 
-// Templates of up to three segments over a few words, and all paths over these and one more word.
+// Random templates of up to three segments from a few words, and all short paths from these words
+// and one more.
 class Drawn {
  public:
   std::string path_template() {
@@ -153,7 +154,8 @@ class Drawn {
     return text + (has_verb ? ":v" : "");
   }
 
-  // Computes the same with a regular expression, without splitting into segments.
+  // Values of the variables according to a regular expression, which does not split the path into
+  // segments.
   [[nodiscard]] std::optional<Values> expected(const std::string& path) const {
     const auto found = regex_->groups(path);
     if (!found) return std::nullopt;
@@ -186,7 +188,7 @@ class Drawn {
 
   std::mt19937 random_{7};
   std::unique_ptr<Regex> regex_;
-  std::vector<std::size_t> groups_;  // group of each variable
+  std::vector<std::size_t> groups_;  // number of the regular expression's group, by variable
 };
 
 TEST(PathTemplate, MatchesLikeARegularExpression) {

@@ -32,7 +32,7 @@ Number random_number(Random& random) {
   return some[below(random, std::size(some))];
 }
 
-// Not every value in the fields of well-known types is valid.
+// Draws a valid value: not every value of the fields of a well-known type is valid.
 void draw_well_known(pb::Message& message, Random& random) {
   const pb::Descriptor& type = *message.GetDescriptor();
   const pb::Reflection& look = *message.GetReflection();
@@ -59,8 +59,8 @@ void draw(pb::Message& message, Random& random, int levels) {
   for (int i = 0; i < type.field_count(); ++i) {
     const pb::FieldDescriptor& field = *type.field(i);
     std::size_t times = below(random, field.is_repeated() ? 4 : 2);
-    if (field.is_map())
-      times = std::min<std::size_t>(times, 1);  // the same key twice would not be equal
+    // At most one entry in a map, because a repeated key would not survive a round trip.
+    if (field.is_map()) times = std::min<std::size_t>(times, 1);
     for (; times > 0; --times) draw_field(message, field, random, levels);
   }
 }
@@ -106,7 +106,8 @@ void draw_field(pb::Message& message, const pb::FieldDescriptor& field, Random& 
     }
     case Type::CPPTYPE_STRING: {
       std::string text = random_text(random);
-      // The services check other rules; these values are also in the schema.
+      // The schema lists the allowed values of some fields. All other rules are left to the
+      // services.
       if (const auto values = rules::choices(field); !values.empty()) {
         text = values[below(random, values.size())];
       }

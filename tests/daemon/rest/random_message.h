@@ -8,7 +8,7 @@
 
 namespace hydroprint::rest {
 
-/// An empty message of that type.
+/// Creates an empty message of that type.
 std::unique_ptr<google::protobuf::Message> new_message(const google::protobuf::Descriptor& type);
 
 /// A message of that type with random fields, including those of nested messages down to `levels`.

@@ -24,8 +24,8 @@ std::string decimal(Number number) {
   return text;
 }
 
-// One value of a leaf field as a URL shows it. `index` is the position in a repeated field,
-// otherwise -1.
+// One value of a leaf field as written in a URL. `index` is the position in a repeated field, and
+// -1 for other fields.
 std::string text_of(const pb::Message& message, const pb::FieldDescriptor& field, int index) {
   const pb::Reflection& look = *message.GetReflection();
   const bool one = index < 0;
@@ -63,7 +63,7 @@ pb::Message& inside(pb::Message& message, const FieldPath& path) {
   return *at;
 }
 
-// The segments of a variable; sets the field to their values.
+// Draws the path segments of a variable, and sets its field in the message to match.
 std::vector<std::string> segments_of(const Route& route, std::size_t variable, pb::Message& message,
                                      Random& random) {
   const FieldPath& path = route.path_fields[variable];
@@ -131,7 +131,7 @@ void write_query(const Route& route, pb::Message& message, const FieldPath& befo
     const auto& bound = route.path_fields;
     if (std::find(bound.begin(), bound.end(), path) != bound.end()) continue;
     if (before.empty() && field == route.body_field) continue;
-    // Both names are accepted.
+    // Both the proto name and the JSON name must be accepted, so the request uses either.
     const std::string name = prefix + (query.size() % 2 == 0 ? field->name() : field->json_name());
     const bool is_object = field->message_type() != nullptr && !is_written_as_value(*field);
     if (is_object && field->is_repeated()) {

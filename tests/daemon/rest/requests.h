@@ -11,7 +11,7 @@
 
 namespace hydroprint::rest {
 
-/// A path that matches the route, with some value for each variable.
+/// A path that matches the route, with an arbitrary value for each variable.
 std::string some_path(const Route& route);
 
 /// Joins words: "GET, POST".

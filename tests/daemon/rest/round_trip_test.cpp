@@ -72,8 +72,8 @@ TEST(Answer, HasAllFieldsWithoutPresence) {
       nlohmann::json::parse(*transcoder->write("/hydroprint.v1.RigService/GetRig", ""));
   EXPECT_EQ(rig.at("state"), "STATE_UNSPECIFIED");
   EXPECT_EQ(rig.at("homed"), false);
-  EXPECT_FALSE(rig.contains("positionMm"));  // optional
-  EXPECT_FALSE(rig.contains("axis"));        // a message
+  EXPECT_FALSE(rig.contains("positionMm"));  // an optional field
+  EXPECT_FALSE(rig.contains("axis"));        // a field that is a message
   EXPECT_EQ(transcoder->write("/hydroprint.v1.JobService/DeleteJob", ""), "{}");
 }
 

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr int kDraws = 12;
 
-// The first of each is the empty message.
+// A random request and answer; draw 0 has empty messages.
 json sample_of(const rest::Transcoder& transcoder, const rest::Route& route, std::mt19937& random,
                int draw) {
   const auto& method = *route.method;

@@ -1,4 +1,4 @@
-// Resuming streams.
+// Ids of events, and resuming streams after an event.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/rest/rules/rules.pb.h"

@@ -19,7 +19,7 @@ class CalibrationStoreTest : public StoreTest {
   Calibration enter(CalibrationKind kind = CalibrationKind::kObject, const std::string& id = "") {
     return store->create({kind, "ann", 0, 0, "body"}, {"CreateCalibration", id, "d"}).value();
   }
-  /// A running job.
+  /// Creates a running job and returns its number.
   std::int64_t running(const std::string& verb = "calibrate") {
     NewJob definition;
     definition.work.verb = verb;
@@ -43,7 +43,8 @@ TEST_F(CalibrationStoreTest, NewestIsActiveUntilAnotherIsActivated) {
   EXPECT_EQ(active(CalibrationKind::kObject), first);
   EXPECT_EQ(active(CalibrationKind::kCamera), lens);
   EXPECT_TRUE(store->remove(first));
-  EXPECT_FALSE(store->active(CalibrationKind::kObject).value()) << "no other one was activated";
+  EXPECT_FALSE(store->active(CalibrationKind::kObject).value())
+      << "no other calibration becomes active";
   EXPECT_EQ(store->get(first).error().reason, "CALIBRATION_NOT_FOUND");
   EXPECT_EQ(store->activate(first).error().reason, "CALIBRATION_NOT_FOUND");
   EXPECT_EQ(store->remove(first).error().reason, "CALIBRATION_NOT_FOUND");
@@ -96,7 +97,8 @@ TEST_F(CalibrationStoreTest, RigStateOutlivesTheCapture) {
   const Job capture = jobs->create(definition, {}).value();
   EXPECT_EQ(capture.state, JobState::kRunning);
   EXPECT_EQ(capture.start_ms, now_ms);
-  EXPECT_EQ(jobs->create(definition, {}).error().reason, "STATE_FORBIDS") << "one at a time";
+  EXPECT_EQ(jobs->create(definition, {}).error().reason, "STATE_FORBIDS")
+      << "captures run one at a time";
   ASSERT_TRUE(store->note_capture(capture.id, place));
   ASSERT_TRUE(jobs->succeed(capture.id, {}));
   const auto id =

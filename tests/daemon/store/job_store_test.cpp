@@ -28,7 +28,8 @@ TEST_F(JobStoreTest, RepeatedRequestReturnsTheSameJob) {
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().reason, "REQUEST_ID_REUSED");
   definition.owner = "bob";
-  EXPECT_NE(jobs->create(definition, key)->id, job.id) << "request ids are separate for each owner";
+  EXPECT_NE(jobs->create(definition, key)->id, job.id)
+      << "another owner may use the same request id";
 }
 
 TEST_F(JobStoreTest, RequestIsForgottenAfterSevenDays) {
@@ -51,7 +52,8 @@ TEST_F(JobStoreTest, FullQueueRefusesWithoutSideEffects) {
   EXPECT_EQ(sixth.error().reason, "QUEUE_FULL");
   EXPECT_EQ(jobs->list({})->size(), 5U);
   ASSERT_TRUE(jobs->cancel(1));
-  EXPECT_TRUE(jobs->create(definition, {"CreateJob", "id", "other"})) << "the id is still unused";
+  EXPECT_TRUE(jobs->create(definition, {"CreateJob", "id", "other"}))
+      << "the refused request did not use up its id";
 }
 
 TEST_F(JobStoreTest, MissingInputIsNamed) {
@@ -101,12 +103,13 @@ TEST_F(JobStoreTest, OnlyLossesWhileRunningCount) {
   EXPECT_EQ(jobs->get(id)->state, JobState::kQueued);
 }
 
-// SQLite's own limit on the file size replaces a full disk.
+// SQLite's limit on the size of the database stands for a full disk.
 TEST_F(JobStoreTest, FullDatabaseRefusesWithoutSideEffectsAndRecovers) {
   job_options.max_queued = 1000000;
   open();
   const std::int64_t first = complete(add("same").id).id;
-  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // raised to the present number of pages
+  // SQLite uses the present number of pages as the limit.
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));
   NewJob definition;
   definition.owner = "ann";
   definition.work.verb = "simulate";
@@ -155,7 +158,7 @@ TEST_F(JobStoreTest, SameInputsGetTheEarlierArtifacts) {
   EXPECT_EQ(hit.state, JobState::kSucceeded);
   EXPECT_TRUE(hit.cache_hit);
   EXPECT_EQ(jobs->artifact(hit.id, "film.png")->sha256, sha256("film"));
-  EXPECT_TRUE(jobs->remove(1)) << "the earlier job can be deleted";
+  EXPECT_TRUE(jobs->remove(1)) << "the job whose artifacts were reused can be deleted";
   EXPECT_EQ(sha256_of_file(layout.artifacts(hit.id) / "film.png").value(), sha256("film"));
   EXPECT_EQ(add("other").state, JobState::kQueued);
 }
@@ -267,7 +270,7 @@ TEST_F(JobStoreTest, OnlyOldFinishedJobsArePurged) {
 TEST_F(JobStoreTest, UnknownFoldersAreSetAsideAtTheStart) {
   complete(add("1").id);
   ASSERT_TRUE(jobs->start(add("2").id));
-  std::filesystem::create_directories(layout.artifacts(2));  // killed after the rename
+  std::filesystem::create_directories(layout.artifacts(2));  // as if killed after the rename
   std::ofstream(layout.artifacts(2) / "film.png") << "not committed";
   std::filesystem::create_directories(layout.run(2) / "in");
   std::filesystem::create_directories(layout.artifacts() / "junk");
@@ -318,7 +321,7 @@ TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
   const auto second = jobs->create(new_dip(), {});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().reason, "STATE_FORBIDS");
-  for (int i = 0; i < 5; ++i) add(std::to_string(i));  // the queue is full
+  for (int i = 0; i < 5; ++i) add(std::to_string(i));  // a full queue must not affect dips
   ASSERT_TRUE(device_jobs->end(dip.id, JobState::kCancelled, {}, "", {}, ""));
   EXPECT_TRUE(jobs->create(new_dip(), {}));
 }
@@ -369,7 +372,8 @@ TEST_F(JobStoreTest, RecordOfADipIsAlwaysKept) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->cancel(dip.id));
   ASSERT_TRUE(device_jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));
-  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "no other state";
+  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling)
+      << "a cancelled dip stays CANCELLING until its end";
   std::filesystem::create_directories(layout.artifacts(dip.id));
   std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
   const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};

@@ -5,7 +5,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::int64_t kKeep_ms = 1000;  // options of the fixture
+constexpr std::int64_t kKeep_ms = 1000;  // retention in the options of the fixture
 
 class Retention : public StoreTest {
  protected:
@@ -118,7 +118,7 @@ TEST_F(Retention, NothingIsDeletedDuringAPrint) {
   definition.traits = {false, true, ""};
   const Job print = jobs->create(definition, {}).value();
   wait(kKeep_ms);
-  EXPECT_TRUE(is_there(old));  // it may be the job that is being printed
+  EXPECT_TRUE(is_there(old));  // the print may be reading the artifacts of this job
   ASSERT_TRUE(device_jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   wait(0);
   EXPECT_FALSE(is_there(old));
@@ -176,7 +176,7 @@ TEST_F(Retention, StepsOfOneDayCount) {
 TEST_F(Retention, OldestAreDeletedFirst) {
   const Job first = add("1"), second = done("2");
   now_ms += 10;
-  complete(first.id);  // the one that ended last
+  complete(first.id);  // the first job ends last
   ASSERT_TRUE(database->run("CREATE TABLE gone(job INTEGER)"));
   ASSERT_TRUE(database->run(
       "CREATE TRIGGER note AFTER DELETE ON jobs BEGIN INSERT INTO gone VALUES (old.id); END"));
@@ -203,7 +203,7 @@ TEST_F(Retention, QueueLimitAppliesToEachOwner) {
   EXPECT_EQ(refused.error().metadata.at("used"), "2");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
   add("3", "bob");
-  ASSERT_TRUE(jobs->start(second.id));  // running, so no longer queued
+  ASSERT_TRUE(jobs->start(second.id));  // a running job no longer counts as queued
   EXPECT_TRUE(jobs->create(definition, {}));
 }
 

@@ -45,7 +45,7 @@ class StoreTest : public ::testing::Test {
     EXPECT_TRUE(asset_retention->purge());
   }
 
-  /// Leaves the store as a killed daemon does.
+  /// Closes the store and leaves it as a killed daemon would.
   void close() {
     asset_retention.reset();
     uploads.reset();
@@ -58,7 +58,7 @@ class StoreTest : public ::testing::Test {
     database.reset();
   }
 
-  /// A job with this digest, owned by `owner`.
+  /// Creates a job with this digest, owned by `owner`.
   Job add(const std::string& digest = "d", const std::string& owner = "ann", int priority = 0) {
     NewJob definition;
     definition.owner = owner;

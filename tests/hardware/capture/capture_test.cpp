@@ -33,7 +33,7 @@ const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_
 const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-capture"};
 #endif
 
-/// Timeout, in s, for operations that are slow on a busy machine but do not hang.
+/// --patience-s, in s, for operations that are slow on a busy machine but do not hang.
 constexpr const char* kLong = "400";
 
 constexpr const char* kScene = R"(
@@ -66,7 +66,7 @@ class Capture : public ::testing::Test {
     return capture(all);
   }
 
-  /// Starts a capture of a minute and waits for its first frames.
+  /// Starts a capture that takes a minute, and waits for its first frames.
   std::unique_ptr<testing::Process> long_capture(const std::string& patience_s = kLong) {
     testing::ProcessOptions options;
     options.files = {{3, path("progress")}};
@@ -148,7 +148,7 @@ TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
   ASSERT_EQ(again.status, 0) << again.err;
   const auto played = frames_of(path("again"));
   const std::string first = png_of(path("again"), played["frames"][0]);
-  // The recording started before the first captured frame.
+  // Finds the index of the first recorded frame. It follows the first captured frame at the latest.
   const int latest = told["frames"][0]["index"].get<int>() + 1;
   int start = 1;
   while (start < latest && first != expected(start)) ++start;
@@ -158,7 +158,7 @@ TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
     EXPECT_TRUE(png_of(path("again"), frame) == expected(index)) << index;
     recorded.insert(index);
   }
-  // That frame may have arrived even earlier.
+  // The first captured frame may precede the recording.
   for (std::size_t i = 1; i < told["frames"].size(); ++i) {
     EXPECT_TRUE(recorded.contains(told["frames"][i]["index"].get<int>())) << i;
   }
@@ -280,12 +280,13 @@ TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
   ASSERT_GE(told.pictures.size(), 2U);
   const auto& [head, png] = told.pictures.back();
   EXPECT_GT(head["farthest_mm"], head["nearest_mm"]);
-  EXPECT_NE(png, told.pictures.front().second) << "another frame";
+  EXPECT_NE(png, told.pictures.front().second)
+      << "the last picture shows another frame than the first";
   const auto read = image::read_image({png.begin(), png.end()}, "live", {});
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->image.width, head["width"]);
   EXPECT_EQ(read->image.height, head["height"]);
-  // Viridis ranges from yellow to violet; grey means not measured.
+  // The colour map viridis ranges from yellow to violet. Grey pixels are not measured.
   std::size_t near = 0, far = 0, grey = 0;
   for (const image::Texel& texel : read->image.texels) {
     if (texel.r == texel.g && texel.g == texel.b) ++grey;

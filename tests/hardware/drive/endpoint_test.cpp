@@ -36,7 +36,8 @@ TEST(Endpoint, ErrorsNameTheExpectedFormat) {
 }
 
 TEST(SerialLine, BytesAndGapsHaveTheSpecifiedDuration) {
-  // 8E1: 11 bits. 8N1: 10 bits. Above 19200 baud the gap is 1.75 ms, below 3.5 characters.
+  // A character has 11 bits with parity (8E1) and 10 bits without (8N1). The gap between frames is
+  // 1.75 ms above 19200 baud, and otherwise 3.5 characters.
   const auto ms = [](auto time) { return std::chrono::duration<double, std::milli>(time).count(); };
   EXPECT_NEAR(ms(wire_time(*parse_endpoint("rtu:/a?baud=9600&parity=E"), 8)), 9.1667, 1e-3);
   EXPECT_NEAR(ms(wire_time(*parse_endpoint("rtu:/a?baud=115200&parity=N"), 25)), 2.1701, 1e-3);

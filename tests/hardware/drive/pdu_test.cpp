@@ -43,14 +43,14 @@ TEST(Frame, ExceptionsAreReportedAsTheDrivesReply) {
 TEST(Frame, OtherBytesAreNotAReply) {
   const Bytes good = {1, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64};
   std::vector<std::pair<Request, Bytes>> cases = {
-      {kRead, {2, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64}},     // unit
-      {kRead, {1, 4, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64}},     // function
-      {kRead, {1, 3, 4, 0x02, 0x2b, 0x00, 0x00}},                 // another request's length
-      {kRead, {1, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64, 0}},  // a byte too many
-      {kRead, {1, 0x84, 2}},                                      // exception to something else
+      {kRead, {2, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64}},     // another unit
+      {kRead, {1, 4, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64}},     // another function
+      {kRead, {1, 3, 4, 0x02, 0x2b, 0x00, 0x00}},                 // fewer words than requested
+      {kRead, {1, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64, 0}},  // one byte too many
+      {kRead, {1, 0x84, 2}},                                      // exception of another function
       {kRead, {1, 0x83, 2, 0}},
-      {kWriteOneWord, {1, 6, 0x00, 0x02, 0x00, 0x03}},  // address
-      {kWriteOneWord, {1, 6, 0x00, 0x01, 0x00, 0x04}},  // value
+      {kWriteOneWord, {1, 6, 0x00, 0x02, 0x00, 0x03}},  // another address
+      {kWriteOneWord, {1, 6, 0x00, 0x01, 0x00, 0x04}},  // another value
       {kWriteTwoWords, {1, 0x10, 0x00, 0x01, 0x00, 0x03}},
       {kWriteTwoWords, {1, 0x10, 0x00, 0x01}}};
   for (std::size_t cut = 0; cut < good.size(); ++cut) {

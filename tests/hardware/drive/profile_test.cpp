@@ -53,7 +53,8 @@ TEST(DriveProfile, VirtualDriveIsReadCorrectly) {
 TEST(DriveProfile, StoppingDistanceMatchesTheNotes) {
   DriveProfile drive;
   drive.stopping_deceleration_mm_per_s2 = 200;
-  // Daemon notes 3.6: 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm.
+  // Daemon notes, section 3.6: at 20 mm/s, 15 mm within 0.25 s + 0.5 s, and 1 mm of braking at
+  // 200 mm/s^2.
   EXPECT_DOUBLE_EQ(stopping_distance_mm(drive, 20, 0.75), 16);
   EXPECT_DOUBLE_EQ(stopping_distance_mm(drive, -20, 0.75), 16);
 }

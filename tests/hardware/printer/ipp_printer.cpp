@@ -27,11 +27,11 @@ int free_port() {
 }
 
 void wait_until(const std::function<bool()>& is_so, const std::string& program) {
-  for (int i = 0; i < 2400; ++i) {  // a busy machine is slow
+  for (int i = 0; i < 2400; ++i) {  // a long limit, because a busy machine is slow
     if (is_so()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  throw std::runtime_error(program + " does not start");
+  throw std::runtime_error(program + " did not start within the time limit");
 }
 
 }  // namespace
@@ -65,10 +65,11 @@ std::filesystem::path IppPrinter::spooled() const {
   std::vector<std::filesystem::path> out;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(folder_.path() / "spool")) {
-    // except the output of its command
+    // skips the output of the print command
     if (entry.path().extension() != ".prn") out.push_back(entry.path());
   }
-  if (out.size() != 1) throw std::runtime_error(std::to_string(out.size()) + " files spooled");
+  if (out.size() != 1)
+    throw std::runtime_error(std::to_string(out.size()) + " spooled files, not one");
   return out.front();
 }
 

@@ -19,8 +19,8 @@ namespace {
 using std::chrono::milliseconds;
 using testing::content;
 
-/// Short poll intervals and short patience with a lost printer, but a long timeout for slow
-/// replies.
+/// Short poll intervals, and a short wait for a printer that does not respond, but a long timeout
+/// for slow replies.
 Timing quick() {
   Timing timing;
   timing.connect = timing.answer = milliseconds(60000);
@@ -81,7 +81,7 @@ TEST(Printer, ReportsFormatsPaperAndMargins) {
 }
 
 TEST(Printer, PrintsTheExactBytesUnscaledAndReportsCompletion) {
-  // The job lasts until the test has seen it.
+  // The print lasts until the test has seen the job.
   const IppPrinter there(std::string("env | grep ^IPP_ > \"$0.env\"\n") +
                          IppPrinter::kUntilFinished);
   const auto bytes = some_bytes(3'000'001);
@@ -117,7 +117,7 @@ TEST(Printer, ReportsAnAbortedJob) {
 }
 
 TEST(Printer, CancelsAJobAndReportsItsEnd) {
-  // The job lasts, cancelled or not, until the test has seen the cancel request.
+  // The print lasts until the test has seen the job being cancelled.
   const IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -182,7 +182,7 @@ TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
   timing.upload = milliseconds(700);
   const Printer printer(silent.address(), timing);
   EXPECT_EQ(printer.attributes().error().reason, "PRINTER_SILENT");
-  // Larger than the system's socket buffers.
+  // The document is larger than the system's socket buffers, so sending it blocks.
   const std::vector<unsigned char> large(40'000'000);
   const auto sent = printer.print({large});
   ASSERT_FALSE(sent);

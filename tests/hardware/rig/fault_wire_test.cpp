@@ -15,7 +15,7 @@ using Outcome = MotionReport::Outcome;
 class Fault : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(Fault);
 
-/// After a fault, nothing moves until reset, arming and homing, in this order.
+/// Expects that, after a fault, nothing moves until reset, arming and homing, in this order.
 void expect_the_long_way_back(WiredRig& rig) {
   ASSERT_TRUE(rig.becomes(State::kFault));
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_FAULTED");
@@ -49,7 +49,7 @@ TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_OFFLINE");
   const std::uint64_t ticks = rig->snapshot().jitter.ticks;
   EXPECT_TRUE(wait_until([&] { return rig->snapshot().jitter.ticks > ticks + 10; }))
-      << "it keeps polling";
+      << "the controller must keep polling";
   rig.drive().act("replug");
   expect_the_long_way_back(rig);
 }
@@ -94,13 +94,14 @@ TEST_P(Fault, AStopWorksWhileRepliesHang) {
   WiredRig rig(GetParam());
   rig.make_ready();
   (void)rig.start_move(100, 10);
-  rig.drive().act("fault drop all");  // received and executed, but without a reply
+  rig.drive().act("fault drop all");  // the drive executes requests but does not reply
   std::this_thread::sleep_for(std::chrono::milliseconds(40));
   const auto asked = Clock::now();
   const double asked_s = rig.drive().now_s();
   rig->stop();
   EXPECT_LT(seconds_since(asked), 0.05);
-  // RTU: the line may be waiting for a reply (response_timeout); then 0.05 s of braking.
+  // Over RTU, the stop may have to wait for the response timeout of another request. Braking takes
+  // 0.05 s more.
   EXPECT_LT(rig.drive().rested_s() - asked_s, 0.25);
 }
 
@@ -132,13 +133,13 @@ TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
   rig.drive().act("press stop");
   ASSERT_TRUE(rig.becomes(State::kEstopped, 1));
   EXPECT_EQ(rig.finish(motion).cause, Cause::kStopButton);
-  EXPECT_EQ(refusal(rig->reset()), "STATE_FORBIDS") << "still pressed";
+  EXPECT_EQ(refusal(rig->reset()), "STATE_FORBIDS") << "the button is still pressed";
   EXPECT_EQ(refusal(rig->arm()), "STATE_FORBIDS");
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "STATE_FORBIDS");
   const double rest_mm = rig.drive().position_mm();
   rig.drive().act("release stop");
   ASSERT_TRUE(wait_until([&] { return !rig->snapshot().bits.button; }));
-  EXPECT_EQ(rig.state(), State::kEstopped) << "releasing does not reset";
+  EXPECT_EQ(rig.state(), State::kEstopped) << "releasing the button does not reset the rig";
   ASSERT_EQ(refusal(rig->reset()), "");
   EXPECT_EQ(rig.state(), State::kDisarmed);
   ASSERT_EQ(refusal(rig->arm()), "");
@@ -194,9 +195,10 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
     const std::uint64_t missed = rig->snapshot().missed_polls;
     rig.drive().act("fault late 200ms 1");
     ASSERT_TRUE(wait_until([&] { return rig->snapshot().missed_polls > missed; }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the reply has arrived by now
+    // Waits until the late reply has arrived.
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
-  // The axis was at rest all the time, so all samples must show that.
+  // The axis was at rest all the time, so no sample may show another position.
   const auto samples = rig->samples(rig.report(rig->snapshot().motion).last_sample + 1, UINT64_MAX);
   ASSERT_FALSE(samples.empty());
   for (const Sample& sample : samples) EXPECT_NEAR(sample.position_mm, 0, 0.01);
@@ -232,7 +234,7 @@ TEST(FaultOfOne, AnAbsentDriveIsFoundLater) {
   BenchRig drive("tcp", {.start_mm = 1});
   drive.act("unplug");
   const auto controller = Controller::make({}, drive.profile(), drive.endpoint());
-  ASSERT_TRUE(controller) << "the controller runs nevertheless";
+  ASSERT_TRUE(controller) << "the controller must run without a drive";
   ASSERT_TRUE(wait_until([&] { return (*controller)->trouble().has_value(); }));
   const auto asked = Clock::now();
   EXPECT_EQ(refusal((*controller)->arm()), "RIG_OFFLINE");

@@ -16,7 +16,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(Limits, TheStoppingDistanceMatchesTheNotes) {
-  // 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm, and the slack.
+  // At 20 mm/s: 15 mm within 0.25 s + 0.5 s, 1 mm of braking at 200 mm/s^2, and the slack.
   RigConfig config = test_config();
   config.slack_mm = 3;
   EXPECT_NEAR(stopping_distance_mm(config, test_profile(), 20), 15 + 1 + 3, 1e-12);
@@ -43,7 +43,7 @@ TEST(Limits, TheStoppingDistanceMatchesASimulatedBraking) {
 TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedWithTheRequiredValue) {
   RigConfig config = test_config();
   config.max_speed_mm_per_s = 20;
-  config.keep_out_mm = 17;  // exactly v T + v^2 / 2a + slack
+  config.keep_out_mm = 17;  // exactly v T + v^2 / 2a + slack: 15 + 1 + 1 mm
   EXPECT_TRUE(check(config, test_profile()));
   config.keep_out_mm = 16.99;
   const Status refused = check(config, test_profile());
@@ -144,7 +144,7 @@ TEST(Limits, AnAxisOutsideTheLimitsMayOnlyMoveInwards) {
 }
 
 TEST(Limits, AJogMayContinueWhileItCanStillBrakeBeforeTheLimit) {
-  const RigConfig config = test_config();  // soft limits 0 to 300
+  const RigConfig config = test_config();  // soft limits at 0 and 300 mm
   const drive::DriveProfile profile = test_profile();
   const double v = 10, looks_mm = v * 3 * config.poll_period_s;
   const double brake_mm = v * v / (2 * profile.stopping_deceleration_mm_per_s2);
@@ -153,7 +153,7 @@ TEST(Limits, AJogMayContinueWhileItCanStillBrakeBeforeTheLimit) {
   EXPECT_FALSE(may_jog(config, profile, 300 - ahead_mm + 0.01, v));
   EXPECT_TRUE(may_jog(config, profile, ahead_mm + 0.01, -v));
   EXPECT_FALSE(may_jog(config, profile, ahead_mm - 0.01, -v));
-  EXPECT_TRUE(may_jog(config, profile, -15, v)) << "inwards from outside";
+  EXPECT_TRUE(may_jog(config, profile, -15, v)) << "an axis outside the limits may move inwards";
   EXPECT_FALSE(may_jog(config, profile, -15, -v));
 }
 

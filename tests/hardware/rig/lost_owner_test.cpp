@@ -28,7 +28,7 @@ bool is_dipping(BenchRig& drive) {
   return drive.speed_mm_per_s() > 0.99 * kSpeed_mm_per_s && drive.position_mm() > 2;
 }
 
-/// The drive stops within its own watchdog's time and distance, counted from now.
+/// Expects that, from now on, the drive stops within the time and distance of its own watchdog.
 void expect_to_stop_by_itself(BenchRig& drive) {
   const drive::DriveProfile& profile = drive.profile();
   const double watchdog_s = profile.watchdog->largest_time_s;
@@ -41,7 +41,7 @@ void expect_to_stop_by_itself(BenchRig& drive) {
   EXPECT_LE(drive.position_mm() - from_mm, RigConfig{}.keep_out_mm);
 }
 
-/// A new owner starts no motion and requires reset, arming and homing.
+/// Expects that a new owner starts no motion and requires reset, arming and homing.
 void expect_a_cold_start(BenchRig& drive) {
   const double rest_mm = drive.position_mm();
   const auto next = Controller::make({}, drive.profile(), drive.endpoint());
@@ -49,7 +49,7 @@ void expect_a_cold_start(BenchRig& drive) {
   const auto condition = [&] { return (*next)->snapshot().condition; };
   ASSERT_TRUE(wait_until([&] { return condition().link == Link::kSafe; }))
       << (*next)->trouble().value_or(Error{}).message;
-  // FAULT after the drive's own alarm; DISARMED if the owner had stopped the drive before.
+  // The state is FAULT after the drive's alarm, or DISARMED if the owner stopped the drive before.
   const std::string refused = refusal((*next)->move_to(20, 5));
   EXPECT_TRUE(refused == "RIG_FAULTED" || refused == "STATE_FORBIDS") << refused;
   EXPECT_EQ(refusal((*next)->reset()), "");
@@ -91,7 +91,7 @@ TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerHangs) {
 }
 
 TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
-  // The drive's own watchdog is slow here, so the effect must be that of the stop_channel.
+  // The drive's own watchdog takes 5 s here, so an earlier stop must come from the stop channel.
   const testing::TemporaryFolder folder;
   testing::VirtualRigOptions options{.start_mm = 3};
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
@@ -113,7 +113,7 @@ TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
   const double rested_s = drive.rested_s();
   EXPECT_GT(rested_s - clean_s, kStale_s);
   EXPECT_LT(rested_s - clean_s, kStale_s + 0.2);
-  EXPECT_EQ(drive.mode(), "hold") << "stopped, not tripped";
+  EXPECT_EQ(drive.mode(), "hold") << "the drive was stopped and did not trip";
   EXPECT_TRUE(stop_channel.consume_trip());
   EXPECT_FALSE(stop_channel.consume_trip());
 }

@@ -26,14 +26,14 @@ drive::DriveState axis(double t_s, double position_mm, bool moving) {
   return out;
 }
 
-/// When and how a supervisor ends.
+/// The event with which a supervisor ends a motion, and its time.
 struct End {
   std::optional<Kind> event;
   double t_s = 0;
   int legs = 0;
 };
 
-/// Runs a supervisor on an axis whose position, some time after the leg's start, `where` returns.
+/// Runs a supervisor on an axis. `where` returns its position at a time in s after the leg's start.
 End play(MotionSupervisor& supervisor, const std::function<double(const Travel&, double)>& where,
          double latest_s = 60) {
   End end;
@@ -84,7 +84,7 @@ TEST(MotionSupervisor, AStalledAxisIsDetectedWithinTheBand) {
   for (const double speed : {1.0, 5.0, 10.0}) {
     MotionSupervisor supervisor = move_supervisor(200, speed);
     const End end = play(supervisor, [](const Travel& t, double s) {
-      return t.position_mm(std::min(s, 1.0));  // blocked from 1 s on
+      return t.position_mm(std::min(s, 1.0));  // the axis is blocked from 1 s on
     });
     EXPECT_EQ(end.event, Kind::kFollowingError);
     const RigConfig config = test_config();
@@ -112,7 +112,7 @@ TEST(MotionSupervisor, AFrozenOrMissingPositionIsAFollowingError) {
 TEST(MotionSupervisor, AnAxisThatStopsShortIsNotDone) {
   MotionSupervisor supervisor = move_supervisor(100, 10);
   const End end = play(supervisor, [](const Travel& t, double s) {
-    return std::min(t.position_mm(s), 99.8);  // within the band, not at the target
+    return std::min(t.position_mm(s), 99.8);  // within the following band, but not at the target
   });
   EXPECT_EQ(end.event, Kind::kFollowingError);
 }
@@ -129,7 +129,7 @@ MotionSupervisor home_supervisor() {
 }
 
 drive::DriveState homing(double t_s, bool moving, bool homed) {
-  drive::DriveState out = axis(t_s, 500, moving);  // meaningless before homing
+  drive::DriveState out = axis(t_s, 500, moving);  // the position means nothing before homing
   out.homed = homed;
   return out;
 }
@@ -137,7 +137,7 @@ drive::DriveState homing(double t_s, bool moving, bool homed) {
 TEST(MotionSupervisor, HomingIsDoneWhenHomedAndAtRestAfterMotion) {
   MotionSupervisor supervisor = home_supervisor();
   EXPECT_FALSE(supervisor.look(homing(0.02, false, true)).event)
-      << "an earlier home does not count";
+      << "an earlier homing does not count";
   EXPECT_FALSE(supervisor.look(homing(0.04, true, false)).event);
   EXPECT_FALSE(supervisor.look(homing(0.06, true, true)).event);
   EXPECT_EQ(supervisor.look(homing(0.08, false, true)).event, Kind::kMotionDone);

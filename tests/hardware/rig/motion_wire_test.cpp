@@ -39,7 +39,7 @@ TEST_P(Wired, AMoveEndsAtItsTargetAndIsFullyRecorded) {
   ASSERT_GT(samples.size(), 20 * 1.2) << "20 Hz";
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.motion, done.number);
-    // the first sample, before the command was sent
+    // the first sample was taken before the command was sent
     if (!std::isfinite(sample.expected_mm)) continue;
     EXPECT_NEAR(sample.position_mm, sample.expected_mm, following_band_mm(rig->config(), 10));
   }
@@ -61,8 +61,8 @@ TEST_P(Wired, ADipHasConstantSpeedHoldsAndRetracts) {
   EXPECT_LT(down.largest_way_mm, 0.2);
   const ConstantSpeed up = constant_speed(samples, *dip, 1);
   EXPECT_NEAR(up.speed_mm_per_s, -10, 0.1);
-  std::cout << "deviation " << down.largest_way_mm << " mm, " << 100 * down.largest_share
-            << " % of speed\n";
+  std::cout << "largest deviation " << down.largest_way_mm << " mm, " << 100 * down.largest_share
+            << " % of the speed\n";
 }
 
 TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstContinues) {
@@ -88,7 +88,8 @@ TEST_P(Wired, TargetsOutOfReachAreRefusedBeforeAnyMotion) {
   EXPECT_EQ(refusal(rig->move_to(20, 0)), "LIMIT_EXCEEDED");
   EXPECT_EQ(refusal(rig->move_to(std::nan(""), 5)), "LIMIT_EXCEEDED");
   EXPECT_EQ(refusal(rig->dip({{20, 5, 0}, {299, 5, 0}})), "LIMIT_EXCEEDED");
-  EXPECT_EQ(refusal(rig->jog(-5)), "LIMIT_EXCEEDED") << "home lies outside the soft limits";
+  EXPECT_EQ(refusal(rig->jog(-5)), "LIMIT_EXCEEDED")
+      << "the axis is at home, which lies outside the soft limits";
   EXPECT_EQ(rig.state(), State::kIdle);
   EXPECT_EQ(rig.drive().position_mm(), at_mm);
 }
@@ -137,11 +138,11 @@ TEST_P(Wired, AStopIsAcceptedInEveryStateAndStopsTheAxis) {
   const double asked_s = rig.drive().now_s();
   rig->stop();
   rig->stop();
-  EXPECT_LT(seconds_since(asked), 0.05) << "returns at once";
+  EXPECT_LT(seconds_since(asked), 0.05) << "stop() must return at once";
   const double rest_s = rig.drive().rested_s() - asked_s;
-  EXPECT_LT(rest_s, 0.25) << "10 mm/s at 200 mm/s^2 take 0.05 s";
+  EXPECT_LT(rest_s, 0.25) << "braking from 10 mm/s at 200 mm/s^2 takes 0.05 s";
   EXPECT_EQ(rig.finish(motion).outcome, Outcome::kStopped);
-  EXPECT_TRUE(rig.becomes(State::kIdle)) << "homed as before";
+  EXPECT_TRUE(rig.becomes(State::kIdle)) << "the axis must still be homed";
   std::cout << "at rest after " << rest_s << " s\n";
 }
 

@@ -1,4 +1,4 @@
-// Owns a rig as the daemon does, and drives it down until it is killed:
+// Owns a rig as the daemon does, and moves its axis down until this program is killed. Usage:
 // rig_owner ENDPOINT PROFILE
 #include <iostream>
 #include <thread>

@@ -27,7 +27,7 @@ TEST(State, EveryStateCanBeReachedAndEveryReachableConditionMakesSense) {
   EXPECT_EQ(states.size(), 9U);
   std::size_t sensible = 0;
   for (const Condition& c : all_conditions()) sensible += makes_sense(c) ? 1 : 0;
-  std::cout << reachable().size() << " reachable conditions of " << sensible << " sensible ones\n";
+  std::cout << reachable().size() << " of " << sensible << " sensible conditions are reachable\n";
 }
 
 TEST(State, NoConditionOrEventStartsForbiddenMotion) {
@@ -131,7 +131,7 @@ TEST(State, ArmingRequiresAResetAfterAFault) {
 TEST(State, APressedButtonLatchesInEveryCase) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!has_bits(event) || !event.bits.button) return;
-    // without a link, nothing is seen
+    // without a link, the button cannot be seen
     if (event.kind == Kind::kSample && c.link == Link::kNone) return;
     EXPECT_EQ(taken.next.state, State::kEstopped);
     EXPECT_TRUE(taken.actions.stop || c.cause == Cause::kStopButton);
@@ -139,7 +139,7 @@ TEST(State, APressedButtonLatchesInEveryCase) {
   const auto pressed = those([](const Condition& c) { return c.state == State::kEstopped; });
   const auto kept_pressed = [](const Event& e) { return !has_bits(e) || e.bits.button; };
   for (const Condition& c : reach(pressed, kept_pressed)) {
-    // If a reset was requested after the release was seen, the next poll reverts it.
+    // A reset may have been requested after the release was seen; the next poll reverts it.
     EXPECT_TRUE(c.state == State::kEstopped || c.state == State::kOffline);
     EXPECT_EQ(c.cause, Cause::kStopButton);
   }

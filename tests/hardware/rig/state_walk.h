@@ -13,24 +13,24 @@ namespace hydroprint::rig {
 void PrintTo(const Condition& c, std::ostream* out);
 void PrintTo(const Event& event, std::ostream* out);
 
-/// Commands that start a motion.
+/// Whether the event is a command that starts a motion.
 [[nodiscard]] bool is_start(const Event& event);
-/// Commands, which may be refused.
+/// Whether the event is a command. Commands may be refused.
 [[nodiscard]] bool is_command(const Event& event);
 
-/// Describes a step in words.
+/// Describes an event in a condition, for failure messages.
 [[nodiscard]] std::string text(const Condition& c, const Event& event);
 
-/// Whether the event is a poll of the drive.
+/// Whether the event is a poll of the drive and so contains the drive's bits.
 [[nodiscard]] bool has_bits(const Event& event);
 
-/// All possible events.
+/// All possible events, with all values of their bits.
 [[nodiscard]] std::vector<Event> all_events();
 
-/// All values of a condition, sensible or not.
+/// All combinations of values of a condition, sensible or not.
 [[nodiscard]] std::vector<Condition> all_conditions();
 
-/// Invariants of every reachable condition.
+/// Whether the invariants of every reachable condition hold.
 [[nodiscard]] bool makes_sense(const Condition& c);
 
 struct ByFields {

@@ -13,7 +13,7 @@ using testing::Clock;
 using testing::seconds_since;
 using testing::wait_until;
 
-/// A controller and its drive, on a real wire, "tcp" or "rtu". The drive's own client is not
+/// A controller and a virtual drive, connected over "tcp" or "rtu". The client of BenchRig is not
 /// connected.
 class WiredRig {
  public:
@@ -30,7 +30,7 @@ class WiredRig {
   /// Starts a move, waits until it has full speed, and returns its number.
   std::uint64_t start_move(double target_mm, double speed_mm_per_s);
   [[nodiscard]] MotionReport report(std::uint64_t motion) const;
-  /// Waits until a motion has ended and the axis is at rest.
+  /// Waits until a motion has ended and the axis is at rest; returns its report.
   [[nodiscard]] MotionReport finish(std::uint64_t motion, double seconds = 30) const;
 
  private:

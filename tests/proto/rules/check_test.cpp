@@ -113,7 +113,8 @@ TEST(Check, AMissingNumberIsReportedOnlyIfItIsRequired) {
   EXPECT_EQ(violations_of(v1::JogRequest()), (Violations{{"speed_mm_per_s", "is missing"}}));
   v1::MoveToRequest request;
   request.set_position_mm(0);
-  EXPECT_EQ(wrong_field(request), "") << "zero is a place; no speed is the default";
+  EXPECT_EQ(wrong_field(request), "")
+      << "position 0 is valid, and a missing speed means the default";
 }
 
 TEST(Check, ARequiredTextMustNotBeEmpty) {
@@ -269,7 +270,7 @@ TEST(Check, FieldsThatTheDaemonSetsAreIgnored) {
 TEST(Check, NotationsAreCheckedByTheirNames) {
   v1::SimulateSpec spec = spec_with_mesh();
   spec.set_film("A9");
-  EXPECT_EQ(wrong_field(spec), "") << "nothing checks films here";
+  EXPECT_EQ(wrong_field(spec), "") << "without a format check, any film name is accepted";
   const FormatChecks formats = {
       {"film", [](const std::string& text) { return text == "A4" ? "" : text + " is unknown"; }}};
   EXPECT_EQ(violations_of(spec, formats), (Violations{{"film", "A9 is unknown"}}));

@@ -34,7 +34,7 @@ void visit_message(const pb::Descriptor& message, const EachField& visit,
   }
 }
 
-// Fields of all specs and of the messages that they contain.
+// Visits the fields of all specs and of the messages that they contain.
 void visit_spec_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   const pb::OneofDescriptor& specs = *v1::Job::descriptor()->FindOneofByName("spec");
@@ -44,7 +44,7 @@ void visit_spec_fields(const EachField& visit) {
   ASSERT_GT(seen.size(), 11U);
 }
 
-// Fields of all requests and responses.
+// Visits the fields of all requests and responses.
 void visit_all_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   for (const char* name : {"ArtifactService", "AssetService", "CalibrationService", "CameraService",
@@ -80,10 +80,12 @@ TEST(DeclaredRules, ReferencesLeadToRulesAndSayNothingElse) {
     if (stated.like().empty()) return;
     const v1::FieldRules* const found = rules_of(field);
     ASSERT_NE(found, nullptr) << field.full_name() << " like " << stated.like();
-    EXPECT_TRUE(found->like().empty()) << field.full_name() << ": a reference to a reference";
-    EXPECT_GT(found->ByteSizeLong(), 0U) << field.full_name() << ": the other has no rules";
+    EXPECT_TRUE(found->like().empty())
+        << field.full_name() << ": `like` refers to a field that has `like` itself";
+    EXPECT_GT(found->ByteSizeLong(), 0U)
+        << field.full_name() << ": `like` refers to a field without rules";
     stated.clear_like();
-    EXPECT_EQ(stated.ByteSizeLong(), 0U) << field.full_name() << ": has rules beside `like`";
+    EXPECT_EQ(stated.ByteSizeLong(), 0U) << field.full_name() << ": has other rules besides `like`";
   });
 }
 
@@ -163,7 +165,7 @@ TEST(DeclaredRules, EveryTextOfASpecIsBounded) {
     const bool is_resource_name = field.name().ends_with("_job") || field.name() == "asset" ||
                                   field.name() == "capture_jobs" ||
                                   field.name().ends_with("calibration");
-    if (is_resource_name) return;  // these are parsed
+    if (is_resource_name) return;  // parsed as a resource name, so it needs no bound
     const v1::FieldRules* const rules = rules_of(field);
     ASSERT_NE(rules, nullptr) << field.full_name();
     EXPECT_TRUE(rules->max_bytes() > 0 || rules->values_size() > 0) << field.full_name();

@@ -19,7 +19,7 @@ TEST(SpecNames, ParametersAreThoseThatCanBeFitted) {
   const auto names = choices(*v1::FitSpec::descriptor()->FindFieldByName("free"));
   for (const std::string& name : names) EXPECT_TRUE(fit::parse_parameters({name})) << name;
   EXPECT_EQ(fit::parse_parameters(names).value(), fit::parse_parameters({}).value())
-      << "together they are all that there are";
+      << "the names must be all parameters";
 }
 
 }  // namespace

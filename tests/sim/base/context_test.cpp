@@ -77,7 +77,7 @@ TEST(ParallelFor, ReportsIncreasingProgressUpToOne) {
   std::vector<double> shares;
   context.report = [&](std::string_view stage, double share) {
     EXPECT_EQ(stage, "velocity");
-    shares.push_back(share);  // one call at a time, as promised
+    shares.push_back(share);  // needs no lock, because report() is called by one thread at a time
   };
   ASSERT_TRUE(parallel_for(context, "velocity", 100, [](std::size_t) -> Status { return {}; }));
   ASSERT_EQ(shares.size(), 100U);

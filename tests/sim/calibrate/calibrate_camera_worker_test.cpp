@@ -14,7 +14,7 @@ using testing::Rig;
 
 constexpr int kViews = 10;
 
-/// The board held towards each corner in turn, tilted in each direction, near and far.
+/// Pose of the board in the i-th view: all over the image, tilted in all directions, near and far.
 Pose held(int i) {
   const Eigen::Vector3d about(std::cos(1.7 * i), std::sin(1.7 * i), 0);
   Pose X_CB = Pose::Identity();
@@ -25,7 +25,7 @@ Pose held(int i) {
   return X_CB;
 }
 
-/// Error of a pose file: the shift at the object's middle, and the rotation.
+/// Error of a pose from a file: the shift at the object's middle in mm, and the rotation in rad.
 std::pair<Eigen::Vector3d, double> off(const json& pose, const Pose& truth) {
   const auto& q = pose["rotation_wxyz"];
   const auto& t = pose["translation_mm"];
@@ -59,11 +59,12 @@ TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json found = read(path("out/calibration.json"));
   const auto [off_mm, rad] = off(found["pose"], X_FO);
-  // The camera does not see an upright face of the board that faces x.
+  // The camera sees no face of the board that determines the shift along x, so this shift comes
+  // from the nominal pose.
   EXPECT_LT(off_mm.tail<2>().norm(), 0.8);
   ASSERT_EQ(found["from_nominal_pose"].size(), 1U);
   std::string along = found["from_nominal_pose"][0];
-  std::erase(along, '-');  // in either direction
+  std::erase(along, '-');  // the direction may have either sign
   EXPECT_EQ(along.substr(0, 15), "shift along (1.");
   EXPECT_LT(rad, 0.2 * kDegree);
   EXPECT_EQ(found["pose"], read(path("out/pose.json")));

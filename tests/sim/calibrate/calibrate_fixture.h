@@ -48,7 +48,7 @@ inline void write_obj(const std::filesystem::path& path, const mesh::Surface& su
     out << "f " << (t.array() + 1).transpose() << "\n";
 }
 
-/// A board in the gripper, seen by a camera.
+/// Fixture with a board in the gripper, seen by the virtual camera.
 class Calibrate : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }

@@ -22,14 +22,16 @@ TEST_F(Calibrate, NamesAHiddenMarker) {
       calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json out = json::parse(ended.out);
-  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: an unconstrained pose
+  // The second warning says that the pose is not fully determined.
+  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];
   EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
   EXPECT_EQ(out["warnings"][0]["where"], "near");
 }
 
 TEST_F(Calibrate, WarnsOfAnUncalibratedCamera) {
   take_frames(4);
-  // With the driver's lens the markers may disagree, which the error then states.
+  // With the driver's lens, calibrate may fail because the markers disagree. The error must then
+  // mention the camera's calibration.
   const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
   const json out = json::parse(ended.out);
   if (ended.status != 0) {

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A camera whose pattern has incomplete squares at the image's edges.
+/// A camera whose pattern has incomplete patches at the image's edges.
 registration::CameraCalibration camera() {
   registration::CameraCalibration out;
   out.lens.width_px = 66;
@@ -38,7 +38,7 @@ class CameraFile : public ::testing::Test {
   [[nodiscard]] Result<registration::CameraCalibration> read(const std::string& text) const {
     return read_camera(folder.write("camera.json", text));
   }
-  /// The error for a file whose pattern has another value for `key`.
+  /// The error for a file whose pattern has `value` for `key`.
   [[nodiscard]] std::string refusal(const std::string& key, const Json& value) const {
     Json json = Json::parse(camera_json(camera()));
     json["pattern"][key] = value;

@@ -50,7 +50,7 @@ TEST_F(Fuse, WritesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {
   const auto model = mesh::read_model(path("out/scan.ply"), 1, {});
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ(model->triangles.size(), report["scan"]["triangles"]);
-  std::vector<double> top;  // of the block
+  std::vector<double> top;  // heights of the block's top
   for (const Eigen::Vector3d& p : model->vertices)
     if (std::abs(p.x()) < 25 && std::abs(p.y()) < 15 && p.z() > 60 && p.z() < 120)
       top.push_back(p.z());

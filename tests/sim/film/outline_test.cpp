@@ -38,7 +38,8 @@ TEST(Outline, NamedSheetsArePortraitAndCentred) {
     EXPECT_EQ(outline->size_mm(), size_mm) << name;
     EXPECT_EQ(outline->max_mm, size_mm / 2) << name;
     EXPECT_EQ(outline->name, name);
-    EXPECT_NEAR(area_mm2(*outline), size_mm.prod(), 1e-9) << "counter-clockwise rectangle";
+    EXPECT_NEAR(area_mm2(*outline), size_mm.prod(), 1e-9)
+        << "the outline must be a counter-clockwise rectangle";
   }
 }
 
@@ -68,7 +69,7 @@ TEST(Outline, CircleHasTheCirclesAreaShortChordsAndBothMirrorSymmetries) {
 TEST(Outline, PolygonStaysWhereTheFilePutsItAndTurnsCounterClockwise) {
   const auto outline = polygon("[[10, 20], [10, 60], [50, 60], [50, 20], [10, 20]]");
   ASSERT_TRUE(outline) << outline.error().message;
-  EXPECT_EQ(outline->polygon.size(), 4u) << "the corner said twice counts once";
+  EXPECT_EQ(outline->polygon.size(), 4u) << "a repeated last corner counts once";
   EXPECT_EQ(outline->min_mm, Vector2d(10, 20));
   EXPECT_EQ(outline->max_mm, Vector2d(50, 60));
   EXPECT_DOUBLE_EQ(area_mm2(*outline), 1600);
@@ -76,10 +77,10 @@ TEST(Outline, PolygonStaysWhereTheFilePutsItAndTurnsCounterClockwise) {
 
 TEST(Outline, PolygonsThatCrossOrTouchThemselvesAreRefusedByCorner) {
   const std::vector<std::string> bad = {
-      "[[0,0],[40,40],[40,0],[0,40]]",                  // bow tie
+      "[[0,0],[40,40],[40,0],[0,40]]",                  // crosses itself
       "[[0,0],[40,0],[20,0],[20,40]]",                  // folds back
       "[[0,0],[40,0],[40,40],[20,0],[0,40]]",           // touches an edge with a corner
-      "[[0,0],[20,20],[40,0],[40,40],[20,20],[0,40]]",  // pinched
+      "[[0,0],[20,20],[40,0],[40,40],[20,20],[0,40]]",  // touches itself at a corner
       "[[0,0],[40,0],[80,0]]",                          // no area
       "[[0,0],[40,0],[40,0],[0,40]]",                   // same corner twice
   };
@@ -131,7 +132,8 @@ TEST(Outline, UnknownWordsAreRefused) {
 }
 
 TEST(Outline, ContainsTheInsideAndTheEdgeOnly) {
-  const auto outline = polygon("[[0,0],[40,0],[40,40],[20,10],[0,40]]");  // a notch from above
+  // A rectangle with a notch from above.
+  const auto outline = polygon("[[0,0],[40,0],[40,40],[20,10],[0,40]]");
   ASSERT_TRUE(outline);
   for (const Vector2d& inside :
        {Vector2d(20, 5), Vector2d(1, 30), Vector2d(39, 30), Vector2d(20, 10), Vector2d(0, 20),

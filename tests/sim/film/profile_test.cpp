@@ -81,7 +81,8 @@ TEST(Profile, RelativeIccProfilesStartAtTheFilesFolder) {
   EXPECT_EQ(read->ink_icc_profile, folder.path() / "icc/printer.icc");
   const auto none = profile("ink_icc_profile = \"\"");
   ASSERT_TRUE(none) << none.error().message;
-  EXPECT_TRUE(none->ink_icc_profile.empty()) << "not the folder";
+  EXPECT_TRUE(none->ink_icc_profile.empty())
+      << "an empty path must not become the folder of the file";
 }
 
 TEST(Profile, ExampleShowsEveryKeyWithItsDefault) {

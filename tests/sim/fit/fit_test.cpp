@@ -67,7 +67,7 @@ class Ball : public ::testing::Test {
     return fit(with.model, with.dip, of, options, testing::two_threads());
   }
 
-  /// The scene with all parameters known except the swelling.
+  /// The scene with all parameters known except the swelling, for which `swelling` is assumed.
   static Scene told(const Eigen::Vector2d& swelling) {
     Scene known = *scene;
     known.dip.profile = truth();
@@ -83,18 +83,20 @@ Scene* Ball::scene = nullptr;
 std::vector<Point>* Ball::points = nullptr;
 
 TEST_F(Ball, IntervalsContainTheTrueValues) {
-  // A fit of all four settles only if dips are so fine that their scatter does not matter.
+  // A fit of all four parameters settles only if the dips are so fine that their numerical scatter
+  // does not matter.
   const Scene fine = ball(1.6);
   const auto outcome = fitted({}, fine, measured(fine, truth(), 0.5, 0.1, 1));
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->estimates.size(), 4u);
   EXPECT_TRUE(outcome->settled);
   expect_within_intervals(*outcome, truth());
-  // Useful intervals are narrower than the distance from the start of the fit.
+  // Intervals are useful if they are narrower than the distance between start and true value.
   EXPECT_LT(find(*outcome, "ink_ratio_mm")->high - find(*outcome, "ink_ratio_mm")->low, 0.07);
   EXPECT_LT(find(*outcome, "swelling_x")->standard_error, 0.005);
   EXPECT_LT(find(*outcome, "drag_length_mm")->high, 100);
-  EXPECT_LT(outcome->rms_after_mm, 0.2) << "0.1 mm in each direction, and less where stretched";
+  EXPECT_LT(outcome->rms_after_mm, 0.2)
+      << "the noise is 0.1 mm in each direction, and less on the film where it is stretched";
   EXPECT_GT(outcome->rms_before_mm, 3 * outcome->rms_after_mm);
   EXPECT_FALSE(reason(*outcome, "young_modulus_mpa").empty());
   EXPECT_FALSE(reason(*outcome, "density_kg_per_m3").empty());
@@ -138,7 +140,7 @@ TEST_F(Ball, ParametersThatAreNotFreeAreHeld) {
 }
 
 TEST_F(Ball, EstimatesAtABoundHaveOneSidedIntervals) {
-  const film::Profile none;  // no drag, no swelling
+  const film::Profile none;  // the true values: no drag and no swelling
   const auto outcome = fitted({{Parameter::kDrag, Parameter::kSwellingX, Parameter::kSwellingY}},
                               *scene, measured(*scene, none, 0.5, 0.1, 4));
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -146,14 +148,14 @@ TEST_F(Ball, EstimatesAtABoundHaveOneSidedIntervals) {
   for (const Estimate& e : outcome->estimates) {
     if (e.is_one_sided) ++at_bound;
     if (e.name == "drag_length_mm") {
-      EXPECT_TRUE(std::isinf(e.high)) << "no drag is among what is possible";
+      EXPECT_TRUE(std::isinf(e.high)) << "the interval must include no drag";
       EXPECT_GT(e.low, 40);
     } else {
       EXPECT_EQ(e.low, 1);
       EXPECT_LT(e.high, 1.02);
     }
   }
-  EXPECT_GT(at_bound, 0) << "of three true values at bounds, some estimate lies there";
+  EXPECT_GT(at_bound, 0) << "three true values lie at bounds, so some estimate must, too";
 }
 
 TEST_F(Ball, PointsThatCannotCountAreLeftOutWithAReason) {
@@ -191,10 +193,10 @@ TEST_F(Ball, TooFewPointsAndPointsOnOneSpotAreRefused) {
   const std::vector<Point> three(points->begin(), points->begin() + 3);
   const auto few = fitted({}, *scene, three);
   ASSERT_FALSE(few);
-  EXPECT_NE(few.error().message.find("3 of 3 points"), std::string::npos) << few.error().message;
+  EXPECT_NE(few.error().message.find("3 of 3 can be used"), std::string::npos) << few.error().message;
   const auto spot = fitted({}, *scene, std::vector<Point>(100, points->front()));
   ASSERT_FALSE(spot);
-  EXPECT_NE(spot.error().message.find("at 1 places"), std::string::npos) << spot.error().message;
+  EXPECT_NE(spot.error().message.find("only 1 of them"), std::string::npos) << spot.error().message;
   EXPECT_EQ(exit_status(spot.error()), ExitStatus::kBadInput);
 }
 
@@ -221,7 +223,7 @@ TEST_F(Ball, CancelStopsTheFit) {
 }
 
 TEST(Fit, WarnsWhereTheSheetDoesNotSettle) {
-  // Film between two legs that join at the bottom is drawn both ways until it folds.
+  // Film between two legs that join at the bottom is drawn towards both until it folds.
   Scene bend{sample::make_model("ubend").value(), {}};
   bend.dip.outline = film::parse_outline("A4").value();
   bend.dip = pipeline::scaled_resolution(bend.dip, 3);
@@ -229,7 +231,7 @@ TEST(Fit, WarnsWhereTheSheetDoesNotSettle) {
   for (const Eigen::Vector3d& p : bend.model.vertices) {
     if (p.z() > 1 && p.z() < 15) feet.push_back({p.head<2>(), p});
   }
-  const Options nothing{{}};  // to fit: one dip is enough
+  const Options nothing{{}};  // no parameter to fit, so that one dip is enough
   for (const std::optional<double> depth_mm : {std::optional<double>(), std::optional(20.0)}) {
     bend.dip.depth_mm = depth_mm;
     const auto outcome = fit(bend.model, bend.dip, feet, nothing, testing::two_threads());

@@ -55,8 +55,8 @@ film::Profile truth() {
   return profile;
 }
 
-/// Inputs small enough to be fast at the program's usual settings: a ball of 12 mm in a film of 60
-/// x 70 mm, dipped to its equator, half of the film black.
+/// Inputs small enough for fast fits at the default settings: a ball of 12 mm radius, dipped 14 mm
+/// deep into a film of 60 x 70 mm, of which nearly half is black.
 class FitWorker : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -103,7 +103,7 @@ class FitWorker : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// Same as command(), with --out added unless it is there.
+  /// Same as command(), with --out added if `more` does not contain it.
   [[nodiscard]] Arguments fit(const Arguments& more = {}, bool with_points = true) const {
     Arguments all = command(more, with_points);
     const bool has_out = std::find(more.begin(), more.end(), "--out") != more.end();
@@ -151,7 +151,7 @@ TEST_F(FitWorker, WritesAProfileThatReadsBackAndExplainsThePoints) {
             named(fit_found["estimates"], "swelling_x").at("value").get<double>());
   EXPECT_EQ(profile.drag_length_mm,
             named(fit_found["estimates"], "drag_length_mm").at("value").get<double>());
-  EXPECT_EQ(profile.ink_ratio_mm, 0.05) << "held, as it was not free";
+  EXPECT_EQ(profile.ink_ratio_mm, 0.05) << "a parameter that is not free keeps its value";
   const auto lies_within = [&](const std::string& name, double value) {
     const json interval = named(fit_found["estimates"], name).at("interval");
     const double high = interval[1].is_null() ? HUGE_VAL : interval[1].get<double>();
@@ -189,7 +189,7 @@ TEST_F(FitWorker, ReportsEveryPointBeforeAndAfter) {
     for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
     ASSERT_GE(cells.size(), 13u) << line;
     if (cells[11] == "0") {
-      EXPECT_GE(cells.size(), 14u) << "with a reason: " << line;
+      EXPECT_GE(cells.size(), 14u) << "an ignored point must have a reason: " << line;
       continue;
     }
     const auto number = [&](int i) { return std::stod(cells[i]); };

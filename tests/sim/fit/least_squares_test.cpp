@@ -18,7 +18,7 @@ Domain wide(Eigen::Index count) {
           VectorXd::Constant(count, 0.03)};
 }
 
-/// (x, y) of exp(-a t), a t / (1 + b) at some t.
+/// Ten points (exp(-a t) + b, a t / (1 + b^2)) of a curve, for u = (a, b).
 VectorXd curved(const VectorXd& u) {
   VectorXd r(20);
   for (int i = 0; i < 10; ++i) {
@@ -49,7 +49,7 @@ TEST(LeastSquares, StaysInTheDomainAndFindsItsBestPoint) {
   const auto residuals = curve_through(Vector2d(0.8, 0.3));
   const auto found = minimise(residuals, Vector2d(0.1, 1), domain, 1e-4).value();
   EXPECT_EQ(found.u[1], 0.5);
-  // No better along the bound.
+  // No neighbour along the bound may be better.
   const double least = mean_square(residuals(found.u).value());
   for (const double by : {-0.01, 0.01}) {
     EXPECT_GT(mean_square(residuals(found.u + Vector2d(by, 0)).value()), least);

@@ -27,7 +27,7 @@ TEST(Parameters, NoDragIsZeroAndItsLengthIsInfinite) {
   EXPECT_NEAR(natural_value(Parameter::kDrag, scaled_value(Parameter::kDrag, profile), profile), 20,
               1e-12);
   set_scaled(Parameter::kDrag, 0, profile);
-  EXPECT_EQ(profile.drag_length_mm, 0) << "as profiles write it";
+  EXPECT_EQ(profile.drag_length_mm, 0) << "profiles write an infinite drag length as 0";
 }
 
 TEST(Parameters, BoundsStayWithinTheLimitsOfProfiles) {

@@ -41,8 +41,9 @@ inline Scene ball(double coarseness = 2.5) {
   return scene;
 }
 
-/// Landing points of a printed grid, rotated by 10 degrees, for a dip with this profile and
-/// resolution. Measured with noise of `noise_mm` in each direction.
+/// Landing points of a printed grid, rotated by 10 degrees, in a dip with this profile. `fineness`
+/// multiplies the mesh lengths and steps of the scene, and the points have noise of `noise_mm` in
+/// each direction.
 inline std::vector<fit::Point> measured(const Scene& scene, const film::Profile& profile,
                                         double fineness, double noise_mm, unsigned seed,
                                         double pitch_mm = 5) {

@@ -29,7 +29,8 @@ TEST(Selection, FourPlacesAreEnoughAndManyPointsOnOneSpotAreNot) {
 
 TEST(Selection, OutliersAreBeyondFourRobustSigmas) {
   std::mt19937 random(2);
-  // All within 0.24 mm, while four robust standard deviations are 0.5: no outlier by chance.
+  // All errors are within 0.24 mm, and four robust standard deviations are 0.5 mm, so no point is
+  // an outlier by chance.
   std::uniform_real_distribution<double> error(-0.17, 0.17);
   std::vector<PointResult> points;
   for (int i = 0; i < 300; ++i) {
@@ -41,7 +42,7 @@ TEST(Selection, OutliersAreBeyondFourRobustSigmas) {
   points[30].left_out = "not used";
   EXPECT_EQ(mark_outliers(points, 0.003), 2);
   for (int i = 0; i < 300; ++i) EXPECT_EQ(points[i].is_outlier, i == 7 || i == 20) << i;
-  EXPECT_EQ(mark_outliers(points, 0.003), 0) << "none is new";
+  EXPECT_EQ(mark_outliers(points, 0.003), 0) << "a second call must find no new outliers";
 }
 
 }  // namespace

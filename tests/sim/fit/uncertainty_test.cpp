@@ -1,5 +1,5 @@
-// Coverage of the intervals: fits of random noise in the linearised form, where only the statistics
-// matter.
+// Coverage of the intervals, tested with linearised fits of random noise, in which only the
+// statistics matter.
 #include "sim/fit/uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 
 constexpr int kDraws = 1000;
 
-/// Typical of a print: ink that moves few points, drag that moves distant points, and swelling.
+/// A Jacobian as of a real print: ink moves few points, drag moves distant points, and swelling
+/// moves all points.
 MatrixXd jacobian_of(int points) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-60, 60);
@@ -37,8 +38,8 @@ MatrixXd jacobian_of(int points) {
   return jacobian;
 }
 
-/// Statistics of many fits: errors divided by their standard errors, and the number of 95 %
-/// intervals that contain the true value.
+/// Statistics of many fits, by parameter: rms of the errors divided by their standard errors, and
+/// the share of the 95 % intervals that contain the true value.
 struct Coverage {
   VectorXd normalised_rms, held;
 };
@@ -82,7 +83,7 @@ TEST(Uncertainty, CoversEqualErrors) {
 }
 
 TEST(Uncertainty, CoversUnequalCorrelatedErrors) {
-  // Compressed film has larger errors, in one direction; here at the distant points.
+  // Where film is compressed, errors are larger and correlated; here at the distant points.
   const MatrixXd jacobian = jacobian_of(150);
   expect_honest(cover(jacobian, [&](int i, double x, double y) -> Vector2d {
     const bool is_far = jacobian.block<2, 1>(2 * i, 1).norm() > 3;
@@ -121,7 +122,7 @@ TEST(Unknowns, AreEmptyIfAllIsKnown) {
 TEST(Unknowns, IncludeParametersThatMoveNothing) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) *= 1e-4;
-  for (const double sigma : {0.1, 0.0}) {  // also without noise
+  for (const double sigma : {0.1, 0.0}) {  // with and without noise
     const auto found = unknowns({noise(160, sigma), jacobian}, 0.003, 2);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameter, 1);
@@ -134,7 +135,7 @@ TEST(Unknowns, IncludeParametersLostInTheNoise) {
   const MatrixXd jacobian = jacobian_of(80);
   const auto found = unknowns({noise(160, 8), jacobian}, 0.003, 2);
   ASSERT_FALSE(found.empty());
-  EXPECT_EQ(found[0].parameter, 0) << "ink moves the points least";
+  EXPECT_EQ(found[0].parameter, 0) << "ink moves the points least, so its parameter is lost first";
 }
 
 TEST(Unknowns, OneOfTwoEquivalentParametersIsNamedWithTheOther) {
@@ -143,7 +144,8 @@ TEST(Unknowns, OneOfTwoEquivalentParametersIsNamedWithTheOther) {
   for (const double sigma : {0.1, 0.0}) {
     const auto found = unknowns({noise(160, sigma), jacobian}, 0.003, 2);
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].parameter, 1) << "known less than that which moves the points twice as far";
+    EXPECT_EQ(found[0].parameter, 1)
+        << "the parameter that moves the points half as far is the less known one";
     EXPECT_EQ(found[0].taken_for, 2);
   }
 }
@@ -167,11 +169,13 @@ TEST(Estimates, LieInTheMiddleOfTheirScaledIntervals) {
   ASSERT_EQ(all.size(), 4u);
   const double t = student_t(0.975, 156);
   EXPECT_EQ(all[0].name, "ink_ratio_mm");
-  EXPECT_NEAR(all[0].value, 0.1, 1e-12) << "a fifth of the film's 0.5 mm";
+  EXPECT_NEAR(all[0].value, 0.1, 1e-12)
+      << "the scaled value is a fifth, and the film is 0.5 mm thick";
   EXPECT_NEAR(all[0].high - all[0].value, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[0].value - all[0].low, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[2].value, 1.06, 1e-12);
-  // Drag is fitted as 1 / length^2, so the ends are swapped and the middle is not the middle.
+  // Drag is fitted as 1 / length^2, so the ends of its interval are swapped and its value is not in
+  // the middle.
   EXPECT_NEAR(1 / std::pow(all[1].low, 2) - 0.002, 0.002 - 1 / std::pow(all[1].high, 2), 1e-9);
   EXPECT_NEAR(all[1].value, std::sqrt(500), 1e-9);
   EXPECT_FALSE(all[1].is_one_sided);

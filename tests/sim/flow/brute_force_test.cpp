@@ -15,10 +15,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Follows film points forward until they land; tracing back from there must find the same points.
+/// Follows film points forward until they land. Tracing back from the landing points must find the
+/// same film points.
 void expect_round_trips(const mesh::Model& model, const hydroprint::testing::DipSetting& setting,
                         int count) {
-  // The reference interpolates velocities linearly between waterlines, so they have to be close.
+  // The reference interpolates velocities linearly between waterlines, so the waterlines have to be
+  // close together.
   hydroprint::testing::DipSetting close = setting;
   close.schedule.swept_mm = 1;
   const auto dip = hydroprint::testing::solve_dip(model, close);
@@ -35,7 +37,7 @@ void expect_round_trips(const mesh::Model& model, const hydroprint::testing::Dip
     const auto contact = particles.follow(film);
     if (!contact) continue;
     const Landing landing = landings.on(contact->triangle, contact->barycentric);
-    if (!landing.film_can_follow) continue;  // excluded by rule, whatever the particle does
+    if (!landing.film_can_follow) continue;  // film on this face is excluded by rule
     const auto back = trace_back(dip.field, landing);
     ASSERT_TRUE(back) << "film at " << film.transpose() << " lands, but none is found there";
     const double error = (*back - film).norm();

@@ -1,4 +1,4 @@
-// Exact solutions of section 2 of the field notes, and three more of the same kind.
+// Exact solutions of the field notes, section 2, and three more of the same kind.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ double depth_at(double radius_mm, double degrees) {
 
 Vector2d direction(double azimuth_rad) { return {std::cos(azimuth_rad), std::sin(azimuth_rad)}; }
 
-/// The point at which a point of a centred sphere meets the water.
+/// The landing at a point of a centred sphere, when the water reaches it.
 Landing on_sphere(double radius_mm, double theta_rad, double azimuth_rad) {
   const Vector2d outward = direction(azimuth_rad);
   return {radius_mm * std::sin(theta_rad) * outward, radius_mm * (1 - std::cos(theta_rad)),
@@ -75,7 +75,7 @@ TEST(ExactSphere, FilmIsTracedBackToItsRadius) {
   }
   EXPECT_LT(errors.rms(), 0.01);
 
-  // The map on the mesh itself, and its stretch (section 6), for the same dip.
+  // The map at the vertices of the mesh, and its stretch (section 6), for the same dip.
   MapOptions options;
   options.make_tiles = false;
   options.dip_speed_mm_per_s = 4;
@@ -138,7 +138,8 @@ TEST(ExactCone, InACircularVat) {
       ASSERT_TRUE(film) << a;
       const double exact_mm =
           vat * std::sqrt(1 - std::pow(1 - a * a / (vat * vat), 1 / std::cos(slope)));
-      // The tip lies within the first steps, which are long compared with its waterline.
+      // The tip is wetted in the first steps, which are long compared with the size of its
+      // waterline.
       EXPECT_NEAR(film->norm(), exact_mm, a < 1 ? 0.1 : 0.02)
           << "cone of " << slope_degrees << " at " << a;
     }
@@ -183,14 +184,14 @@ TEST(ExactCylinder, FilmIsDrawnUpItsWall) {
     const double s = (1 - a * a / (vat * vat)) * std::exp(-2 * a * z / (vat * vat - a * a));
     EXPECT_NEAR(film->norm(), vat * std::sqrt(1 - s), 0.02) << z;
   }
-  for (const double r : {0.0, 7.0, 14.9}) {  // the bottom meets the film all at once
+  for (const double r : {0.0, 7.0, 14.9}) {  // the whole bottom meets the film at once
     const auto film = trace_back(dip.field, {r * direction(0.2), 0, Vector2d(0, 0), true, true});
     ASSERT_TRUE(film);
     EXPECT_LT((*film - r * direction(0.2)).norm(), 1e-9);
   }
 }
 
-// Inside, u = r / a: film that lands at height z started at a exp(-z / a).
+// Inside the cup, u = r / a. Film that lands at height z was at radius a exp(-z / a) at rest.
 TEST(ExactCup, TrappedFilmIsSpreadOverWallAndCeiling) {
   const double a = 15;
   DipSetting setting;

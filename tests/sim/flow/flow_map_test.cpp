@@ -22,7 +22,7 @@ FlowMap mapped(const SolvedDip& dip, MapOptions options = {}) {
   return make_flow_map(dip.surface, dip.body, dip.field, {}, options, {}).value();
 }
 
-/// Expects that a point's figures are either all numbers or all NaN.
+/// Expects that the values at each point are either all numbers or all NaN.
 void expect_numbers_or_nothing(const SurfaceMap& map) {
   for (std::size_t v = 0; v < map.film_mm.size(); ++v) {
     const bool reached = !std::isnan(map.film_mm[v].x());
@@ -201,7 +201,8 @@ TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsEmpty) {
   EXPECT_FALSE(trace_back(dip.field, {Vector2d(41, 0), 5, rest, true, true}));
   EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 10.001, rest, true, true}));
   EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 8, rest, true, true})) << "inside the body";
-  EXPECT_TRUE(trace_back(dip.field, {Vector2d(30, 30), 8, rest, true, true})) << "floating film";
+  EXPECT_TRUE(trace_back(dip.field, {Vector2d(30, 30), 8, rest, true, true}))
+      << "a point of the floating film";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-/// The map from film to surface.
+/// Derivative of the map from film to surface.
 using Jacobian = Eigen::Matrix<double, 3, 2>;
 
 const std::array<Vector2d, 3> kFilm = {Vector2d(1, 2), Vector2d(3, 2.5), Vector2d(0.5, 4)};
@@ -70,7 +70,8 @@ TEST(Gradient, MapsStepsAlongTheSurfaceToStepsOnTheFilm) {
     EXPECT_LT((g * (surface[i] - surface[0]) - (kFilm[i] - kFilm[0])).norm(), 1e-12);
   }
   const Vector3d normal = (surface[1] - surface[0]).cross(surface[2] - surface[0]);
-  EXPECT_LT((g * normal).norm(), 1e-12) << "nothing across the surface";
+  EXPECT_LT((g * normal).norm(), 1e-12)
+      << "the gradient must not have a component across the surface";
 }
 
 TEST(Gradient, OfASurfaceTriangleWithoutAreaIsZero) {
@@ -94,7 +95,7 @@ TEST(PointGradients, IgnoreUnreachedAndInvertedTriangles) {
   auto gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
   EXPECT_NEAR(stretch_of(gradients[0]).most, 0.5, 1e-12);
-  film[3] = Vector2d(-5, 9);  // on the side of the other triangle
+  film[3] = Vector2d(-5, 9);  // moved to the other side, where the other triangle lies
   gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
 }

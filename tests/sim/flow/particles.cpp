@@ -60,11 +60,11 @@ std::optional<Particles::Contact> Particles::contact(const Vector3d& from,
 }
 
 std::optional<Particles::Contact> Particles::follow(Vector2d p) const {
-  std::size_t next = 0;  // waterline
+  std::size_t next = 0;  // number of the next waterline
   for (double depth = 0; depth < dip_.depth_mm;) {
-    // A step stays within one millimetre of height, so that one layer holds all faces it can touch.
-    // It also ends at waterlines, where the velocity has a kink, or nearly a jump if two waterlines
-    // enclose an edge.
+    // A step stays within one layer of 1 mm height, so that only the faces of this layer can be
+    // touched. It also ends at waterlines: the velocity has a kink there, or nearly a jump if two
+    // waterlines enclose an edge.
     double end = std::min({depth + step_mm_, std::floor(depth) + 1, dip_.depth_mm});
     while (next < dip_.immersion_mm.size() && dip_.immersion_mm[next] <= depth) ++next;
     if (next < dip_.immersion_mm.size()) end = std::min(end, dip_.immersion_mm[next]);

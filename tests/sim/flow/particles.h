@@ -10,8 +10,8 @@
 namespace hydroprint::flow::reference {
 
 /// The paper's method (section 4.5) in its simplest form. Film points are advected with the
-/// velocity field, interpolated linearly in depth, by small fourth-order Runge-Kutta steps. They
-/// stop when the point's path through the water's surface crosses a triangle of the body.
+/// velocity field, interpolated linearly in depth, by small fourth-order Runge-Kutta steps. A
+/// point lands where its path, in the frame of the body, crosses a triangle.
 class Particles {
  public:
   Particles(const waterline::Body& body, const DipField& dip, double step_mm);
@@ -21,7 +21,8 @@ class Particles {
     Eigen::Vector3d barycentric;
   };
 
-  /// The landing point of a film point; nullopt if it still floats at the end of the dip.
+  /// The landing point of a film point; nullopt if the film point still floats at the end of the
+  /// dip.
   [[nodiscard]] std::optional<Contact> follow(Eigen::Vector2d film_mm) const;
 
  private:
@@ -32,7 +33,7 @@ class Particles {
   const waterline::Body& body_;
   const DipField& dip_;
   double step_mm_;
-  std::vector<std::vector<int>> layers_;  ///< triangles per millimetre of height
+  std::vector<std::vector<int>> layers_;  ///< triangles that touch each 1 mm layer of height
 };
 
 }  // namespace hydroprint::flow::reference

@@ -15,8 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr int kDirections = 16;
-/// If two particles land farther apart than this, relative to their distance on the film, the map
-/// jumps between them.
+/// The map jumps between two particles if the distance between their landing points is more than
+/// this multiple of their distance on the film.
 constexpr double kMostStretch = 5;
 constexpr double kLeastJump_mm = 0.2;
 
@@ -28,8 +28,9 @@ Vector3d point_in(const waterline::Body& body, int triangle, const Vector3d& bar
   return point;
 }
 
-/// Distance on the film for a small step from a spot of the surface. There is no film off the
-/// surface, so the step's normal component counts in full.
+/// Difference on the film between the distance for a small step from a spot of the surface and the
+/// expected distance. The map is not defined off the surface, so the step's normal component is
+/// added unchanged.
 double film_distance_mm(const PixelMap::Spot& spot, const Vector3d& normal, const Vector3d& step_mm,
                         const Vector2d& expected_mm) {
   return (spot.film_per_surface * step_mm - expected_mm).norm() + std::abs(normal.dot(step_mm));

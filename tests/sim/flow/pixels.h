@@ -14,8 +14,8 @@ namespace hydroprint::flow::reference {
 
 using Pixel = Eigen::Vector2i;  ///< column and row of a film image
 
-/// The fast map as used by the film image: the tile under the middle of each pixel. If there are
-/// several, the one with the earliest contact.
+/// The fast map as used by the film image. Each pixel uses the tile under its middle or, if there
+/// are several, the one with the earliest contact.
 class PixelMap {
  public:
   /// Body and tiles must outlive the map.
@@ -26,16 +26,16 @@ class PixelMap {
   struct Spot {
     int triangle = 0;
     Eigen::Vector3d barycentric;
-    Eigen::Vector3d point_mm;   ///< on the body in its place over the film
-    Gradient film_per_surface;  ///< of the tile
+    Eigen::Vector3d point_mm;   ///< point on the body, in the film frame
+    Gradient film_per_surface;  ///< derivative of the tile's map
   };
   [[nodiscard]] std::optional<Spot> at(const Pixel& pixel) const;
 
   [[nodiscard]] Eigen::Vector2d film_mm(const Pixel& pixel) const;
   [[nodiscard]] const image::FilmGrid& grid() const { return grid_; }
 
-  /// True if the map jumps, begins or ends between the pixel and the next one in its row or column:
-  /// it moves farther than its gradient predicts by more than a pixel.
+  /// True if the map jumps, begins or ends between the pixel and the next one in its row or column.
+  /// At a jump, the landing point moves by over a pixel more than the gradient predicts.
   [[nodiscard]] bool is_at_jump(const Pixel& pixel) const;
 
  private:
@@ -46,15 +46,16 @@ class PixelMap {
   const waterline::Body& body_;
   const std::vector<MappedTriangle>& tiles_;
   image::FilmGrid grid_;
-  std::vector<int> tile_;  ///< per pixel; -1: nothing lands there
+  std::vector<int> tile_;  ///< tile of each pixel; -1: nothing lands there
 };
 
 /// Comparison of the fast map and a particle at one pixel.
 struct PixelError {
-  bool lands = false;     ///< in the map or as a particle
-  bool is_ruled = false;  ///< the particle meets a face excluded by rule for film: not an error
-  /// Distance on the film between the particle and one that would land where the map says; infinite
-  /// if only one of map and particle lands.
+  bool lands = false;     ///< according to the map or the particle
+  bool is_ruled = false;  ///< the particle meets a face on which film is excluded by rule, so the
+                          ///< error does not count
+  /// Distance on the film between the particle and a particle that would land at the point of the
+  /// map; infinite if there is a landing point only in the map or only for the particle.
   double error_mm = 0;
 };
 
@@ -65,15 +66,16 @@ class PixelComparison {
 
   [[nodiscard]] PixelError at(const Pixel& pixel) const;
 
-  /// Distance on the film between the landing points of other particles and these. 0 if neither
-  /// lands; infinite if only one lands or the map has no film there.
+  /// Distance between the landing points of this pixel in `others` and in the compared particles,
+  /// converted to a distance on the film. 0 if neither lands; infinite if only one lands or the map
+  /// has no film there.
   [[nodiscard]] double moved_mm(const Pixel& pixel, const Particles& others) const;
 
   /// Error of the map, on the film, in the position of a jump at this pixel. It is the distance to
   /// the nearest particle that agrees with the map at this pixel (up to half a pixel), or that
-  /// lands apart from the pixel's own particle. In the second case the particles' jump lies between
-  /// the two. The search uses rings of growing radius. 0 if map and particle agree, infinite beyond
-  /// 4 mm.
+  /// lands far from the pixel's own particle. In the second case, the particles jump between the
+  /// two. The search uses rings of growing radius. 0 if map and particle agree; infinite beyond 4
+  /// mm.
   [[nodiscard]] double jump_distance_mm(const Pixel& pixel) const;
 
  private:

@@ -20,11 +20,12 @@ using hydroprint::testing::DipSetting;
 using hydroprint::testing::SolvedDip;
 using hydroprint::testing::two_threads;
 
-/// In pixels: 0.04 mm at 600 dpi.
+/// Allowed error of the map in pixels: 0.04 mm at 600 dpi.
 constexpr double kTolerance_px = 0.945;
 
 /// The tiles of a dip at the default settings for a resolution, and particles in a dip with smaller
-/// steps. Particles need these because they interpolate velocities linearly between waterlines.
+/// steps. Particles need the smaller steps because they interpolate velocities linearly between
+/// waterlines.
 class Trial {
  public:
   Trial(const mesh::Model& model, DipSetting setting, double dpi = 600)
@@ -38,7 +39,7 @@ class Trial {
         particles_(dip_.body, close_.field, 0.1),
         comparison_(map_, dip_.body, particles_) {}
 
-  /// Share of correct pixels among random pixels with a landing.
+  /// Share of random pixels within the tolerance, among those at which the map or a particle lands.
   [[nodiscard]] double share_within(int count) const {
     std::mt19937 random(23);
     int landed = 0, within = 0;
@@ -52,7 +53,7 @@ class Trial {
     return static_cast<double>(within) / landed;
   }
 
-  /// The largest error, on the film, in the position of a jump.
+  /// Largest error, on the film, in the position of a jump, over `count` random pixels at jumps.
   [[nodiscard]] double largest_jump_distance_mm(int count) const {
     std::mt19937 random(29);
     double most = 0;

@@ -26,7 +26,7 @@ double area_of(const MappedTriangle& tile) {
   return 0.5 * cross(tile.film_mm[1] - tile.film_mm[0], tile.film_mm[2] - tile.film_mm[0]);
 }
 
-/// Film covered by tiles, sampled at the middles of square cells.
+/// Number of tiles that cover the film, sampled near the middles of square cells.
 class Raster {
  public:
   Raster(const film::Outline& film, double cell_mm) : cell_mm_(cell_mm), low_mm_(film.min_mm) {
@@ -44,7 +44,7 @@ class Raster {
          y < std::min(rows_, static_cast<int>(high.y()) + 2); ++y) {
       for (int x = std::max(0, static_cast<int>(low.x()) - 1);
            x < std::min(columns_, static_cast<int>(high.x()) + 2); ++x) {
-        // An irregular position in the cell, so that it is not on the edge of a tile.
+        // Not exactly the middle, so that the sample is not on the edge of a tile.
         const Vector2d at(x + 0.50137, y + 0.49771);
         bool inside = true;
         for (int i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ class Raster {
     }
   }
 
-  /// Area covered, and area covered more than once.
+  /// Area covered by tiles, and the area of their overlaps.
   [[nodiscard]] std::pair<double, double> covered_and_doubled() const {
     double covered = 0, doubled = 0;
     for (const int n : count_) {
@@ -121,8 +121,9 @@ void expect_linear(const SolvedDip& dip, const FlowMap& map, const MapOptions& o
     most = std::max(most, error);
     off += error > 2 * options.tolerance_mm;
   }
-  EXPECT_LE(off, most_off * samples) << "beyond twice the tolerance; worst " << most;
-  EXPECT_LE(lost, samples / 500) << "nothing lands there";
+  EXPECT_LE(off, most_off * samples)
+      << "too many errors above twice the tolerance; largest error in mm: " << most;
+  EXPECT_LE(lost, samples / 500) << "too many points of tiles have no film";
   EXPECT_LT(most, worst_mm);
 }
 
@@ -131,7 +132,7 @@ void expect_sound(const SolvedDip& dip, const FlowMap& map, double overlap = 1e-
   double area = 0;
   Raster raster(dip.field.outline, 0.1);
   for (const MappedTriangle& tile : map.tiles) {
-    EXPECT_GT(area_of(tile), 0) << "clockwise on the film";
+    EXPECT_GT(area_of(tile), 0) << "a tile is clockwise on the film";
     area += area_of(tile);
     for (int i = 0; i < 3; ++i) {
       EXPECT_TRUE(tile.film_mm[i].allFinite());
@@ -184,16 +185,18 @@ TEST(Tiles, OfTwoFeetAndTheirBridgeOverlapLittle) {
   const MapOptions options;
   const FlowMap map = tiled(dip, options);
   expect_sound(dip, map);
-  // Along sharp upright edges eq. (1) turns by a right angle at once, and so does the map.
+  // At sharp upright edges, the pull of eq. (1) turns abruptly by a right angle, so the map has a
+  // kink there.
   expect_linear(dip, map, options, 0.15, 0.4);
 }
 
 TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
-  // The stalk parts the film; the overhanging sphere then brings it down around the stalk.
+  // The stalk opens a hole in the film; the overhanging sphere then carries film down around the
+  // stalk.
   DipSetting setting;
   setting.film = testing::film_of("110x100");
   setting.depth_mm = 34;
-  setting.schedule.swept_mm = 1.3;  // this test is about tiles, not about steps
+  setting.schedule.swept_mm = 1.3;  // coarse steps, because this test is about tiles
   const SolvedDip dip =
       testing::solve_dip(testing::together({testing::moved(testing::cylinder(4, 20, 48), {3, 2, 0}),
                                             testing::moved(sample::icosphere(18, 4), {0, 0, 30})}),

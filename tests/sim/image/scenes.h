@@ -23,7 +23,7 @@ inline constexpr std::array<int, 3> kWhite = {255, 255, 255}, kBlack = {0, 0, 0}
                                     kGrey = {128, 128, 128}, kRed = {255, 0, 0},
                                     kGreen = {0, 255, 0}, kBlue = {0, 0, 255};
 
-/// A folder for one test, removed at its end.
+/// A folder for one test, removed when the test ends.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -111,7 +111,7 @@ inline mesh::Surface surface_of(const mesh::Model& model) {
   return surface;
 }
 
-/// One tile per triangle; `map` gives the point of the film for a point of the object.
+/// One tile per triangle. `map` returns the film point for a point of the object.
 inline std::vector<flow::MappedTriangle> tiles_of(
     const mesh::Surface& surface,
     const std::function<Eigen::Vector2d(const Eigen::Vector3d&)>& map) {

@@ -21,7 +21,7 @@ InkField field_of(const film::Outline& outline, const std::function<double(const
   return *InkField::from_function(ink_grid(outline, cell_mm), t);
 }
 
-/// Every cell is independent, which is the hardest kind of field.
+/// A field whose cells are independent of each other, which is the hardest kind.
 InkField noise(const film::Outline& outline, double cell_mm) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> amount(0, kMostInk);
@@ -38,7 +38,7 @@ double area_mm2(const Triangle& t) {
 
 double mean(const InkField& field, const Triangle& t) { return field.mean(t[0], t[1], t[2]); }
 
-/// Mean over the centroids of parts^2 congruent pieces.
+/// Mean over the centroids of parts^2 congruent pieces of the triangle.
 double sampled_mean(const InkField& field, const Triangle& t, int parts) {
   double sum = 0;
   for (int i = 0; i < parts; ++i) {
@@ -117,9 +117,9 @@ TEST(InkField, CellsLieFromTheLowerLeft) {
   EXPECT_EQ(field.at({-2.5, -2.5}), 2);
   EXPECT_EQ(field.at({2.5, -2.5}), 3);
   EXPECT_EQ(field.at({-2.5, 2.5}), 4);
-  EXPECT_DOUBLE_EQ(field.at({0, -5}), 1.5) << "bilinear";
-  EXPECT_EQ(field.at({5, -10}), 1) << "the corner of the film";
-  EXPECT_EQ(field.at({5.001, -10}), 0) << "outside";
+  EXPECT_DOUBLE_EQ(field.at({0, -5}), 1.5) << "amounts are interpolated bilinearly";
+  EXPECT_EQ(field.at({5, -10}), 1) << "the corner belongs to the film";
+  EXPECT_EQ(field.at({5.001, -10}), 0) << "there is no ink outside the film";
   EXPECT_DOUBLE_EQ(field.total_mm2(), 250);
 }
 
@@ -146,7 +146,8 @@ TEST(InkField, MeanIsThatOfManySamples) {
 
 TEST(InkField, ThereIsNoInkBeyondTheFilm) {
   const InkField field = field_of(outline_of("20x20"), [](const Vector2d&) { return 3; });
-  EXPECT_NEAR(field.mean({5, -5}, {15, -5}, {5, 5}), 3 * 0.75, 1e-12) << "a quarter hangs over";
+  EXPECT_NEAR(field.mean({5, -5}, {15, -5}, {5, 5}), 3 * 0.75, 1e-12)
+      << "a quarter of the triangle lies beyond the film";
   EXPECT_NEAR(field.mean({-40, -40}, {40, -40}, {0, 40}), 3 * 400 / 3200.0, 1e-12)
       << "the film lies within the triangle";
   EXPECT_EQ(field.mean({11, 0}, {15, 0}, {12, 4}), 0);
@@ -159,7 +160,8 @@ TEST(InkField, TrianglesThatCoverTheFilmContainAllItsInk) {
     const InkField field = noise(outline, cell_mm);
     std::mt19937 random(3);
     for (int trial = 0; trial < 20; ++trial) {
-      // A fan around a random point of the film; random points divide the film's edge.
+      // A fan of triangles around a random point of the film. Random points divide the film's
+      // edges.
       std::uniform_real_distribution<double> share(0.05, 0.95);
       const Vector2d hub =
           outline.min_mm + outline.size_mm().cwiseProduct(Vector2d(share(random), share(random)));
@@ -207,7 +209,8 @@ TEST(InkField, MeanDoesNotDependOnOrientationOrFirstCorner) {
 
 TEST(InkField, EdgesAlongTheGridLoseNothing) {
   const InkField field = noise(outline_of("10x10"), 0.5);
-  // From centre to centre, from edge to edge, and split along both diagonals.
+  // Squares from cell centre to cell centre and from cell edge to cell edge, split along either
+  // diagonal.
   for (const double from : {-4.75, -5.0, 0.0}) {
     const Vector2d a(from, from), b(from + 4, from), c(from + 4, from + 4), d(from, from + 4);
     const double whole = field.mean(a, b, c) + field.mean(a, c, d);

@@ -96,7 +96,7 @@ TEST(InkOf, ImagesOfWholeDotsPerInchKeepTheirPitch) {
     return x < 12 ? std::array<int, 3>{255, 0, 0} : std::array<int, 3>{255, 255, 255};
   });
   const InkField more = ink(image, outline_of("60x40"));
-  EXPECT_NEAR(more.total_mm2(), 2 * 30 * 40, 1e-9) << "what hangs over the film is cut off";
+  EXPECT_NEAR(more.total_mm2(), 2 * 30 * 40, 1e-9) << "ink beyond the film is cut off";
   // The image is slightly smaller than this film.
   const InkField less = ink(image, outline_of("62x41"));
   EXPECT_NEAR(less.total_mm2(), 2 * 12 * 2.54 * 16 * 2.54, 1e-9);
@@ -104,7 +104,7 @@ TEST(InkOf, ImagesOfWholeDotsPerInchKeepTheirPitch) {
 }
 
 TEST(InkOf, EachPixelsInkIsAtThePixelsPlace) {
-  // Not symmetric: red top left, black bottom right.
+  // A picture without symmetry: red top left, black bottom right.
   const film::Outline outline = outline_of("40x20");
   const image::RgbImage image = picture(4, 2, [](int x, int y) {
     if (x == 0 && y == 0) return std::array<int, 3>{255, 0, 0};
@@ -116,11 +116,13 @@ TEST(InkOf, EachPixelsInkIsAtThePixelsPlace) {
   EXPECT_NEAR(field.at({15, -5}), 1, 1e-12);
   EXPECT_EQ(field.at({15, 5}), 0);
   EXPECT_EQ(field.at({-15, -5}), 0);
-  EXPECT_NEAR(field.mean({-20, 0}, {-10, 0}, {-20, 10}), 2, 0.1) << "except the cells at the edge";
+  EXPECT_NEAR(field.mean({-20, 0}, {-10, 0}, {-20, 10}), 2, 0.1)
+      << "only cells at the edge may differ";
 }
 
 TEST(InkOf, ConvertsPixelsBeforeItAveragesThem) {
-  // Black and white dots: half of t = 1. Grey of the same reflectance would be 0.26 (188 of 255).
+  // Black and white dots have a mean of t = 0.5. Grey of the same reflectance (188 of 255) would
+  // have t = 0.26.
   const film::Outline outline = outline_of("40x20");
   const image::RgbImage image = picture(1600, 800, [](int x, int y) {
     return (x + y) % 2 ? std::array<int, 3>{0, 0, 0} : std::array<int, 3>{255, 255, 255};

@@ -9,7 +9,7 @@ namespace hydroprint::ink::testing {
 namespace {
 
 void expect(bool done) {
-  if (!done) throw std::runtime_error("Little CMS could not make a profile");
+  if (!done) throw std::runtime_error("Little CMS could not create a profile");
 }
 
 std::string saved(cmsHPROFILE profile) {
@@ -29,7 +29,8 @@ cmsInt32Number ink_of_lab(const cmsUInt16Number lab[], cmsUInt16Number cmyk[], v
   return 1;
 }
 
-/// Linear in L*, so two grid points are enough.
+/// Writes a table of ink amounts by Lab colour. The amounts are linear in L*, so two grid points
+/// are enough.
 void write_table(cmsHPROFILE profile, cmsTagSignature tag, double share) {
   cmsPipeline* table = cmsPipelineAlloc(nullptr, 3, 4);
   cmsStage* clut = cmsStageAllocCLut16bit(nullptr, 2, 3, 4, nullptr);

@@ -14,8 +14,8 @@ struct Printer {
 /// An ICC profile (version 4) of that printer, as the bytes of a file.
 [[nodiscard]] std::string icc_profile(const Printer& printer);
 
-/// The profile of sRGB (a display, RGB), a CMYK profile that does not belong to a printer, and the
-/// profile of an RGB printer.
+/// Profiles that are not of a CMYK printer: sRGB (a display), a CMYK device link, and an RGB
+/// printer.
 [[nodiscard]] std::string srgb_profile();
 [[nodiscard]] std::string cmyk_link_profile();
 [[nodiscard]] std::string rgb_printer_profile();

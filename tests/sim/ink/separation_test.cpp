@@ -20,7 +20,7 @@ using testing::icc_profile;
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// Ships with Debian's libgs-common (deploy/packages.txt).
+/// A profile of the Debian package libgs-common (deploy/packages.txt).
 constexpr const char* kRealProfile = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
 double amount(const Separation& separation, const Rgb& rgb) {
@@ -67,7 +67,7 @@ TEST(NaiveCmyk, PrimariesAreExact) {
   for (const Rgb& one_ink : {Rgb{0, 255, 255}, Rgb{255, 0, 255}, Rgb{255, 255, 0}}) {
     EXPECT_EQ(amount(naive, one_ink), 1);
   }
-  EXPECT_NEAR(amount(naive, {51, 51, 51}), 0.8, 1e-15) << "greys are K alone";
+  EXPECT_NEAR(amount(naive, {51, 51, 51}), 0.8, 1e-15) << "a grey uses only K";
   EXPECT_NEAR(amount(naive, {51, 0, 0}), 0.8 + 2, 1e-15);
 }
 
@@ -94,7 +94,7 @@ TEST(IccSeparation, FollowsTheProfilesColorimetricTable) {
     EXPECT_NEAR(amount(*printer, {grey, grey, grey}), 3 * (1 - lightness(y) / 100), 0.01) << code;
   }
   EXPECT_EQ(amount(*printer, {255, 255, 255}), 0);
-  // Luminances of sRGB's primaries, adapted to D50.
+  // Expected amounts from the luminances of sRGB's primaries, adapted to D50.
   EXPECT_NEAR(amount(*printer, {255, 0, 0}), 3 * (1 - lightness(0.2225) / 100), 0.01);
   EXPECT_NEAR(amount(*printer, {0, 255, 0}), 3 * (1 - lightness(0.7169) / 100), 0.01);
   EXPECT_NEAR(amount(*printer, {0, 0, 255}), 3 * (1 - lightness(0.0606) / 100), 0.01);
@@ -123,7 +123,7 @@ TEST(IccSeparation, RealPrintersProfileAgreesWithLittleCmsInFullPrecision) {
     EXPECT_NEAR(amount(*printer, rgb), t, 0.03) << +rgb[0] << " " << +rgb[1] << " " << +rgb[2];
   }
   EXPECT_EQ(amount(*printer, {255, 255, 255}), 0);
-  EXPECT_GT(amount(*printer, {0, 0, 0}), 2) << "a printer's black is not K alone";
+  EXPECT_GT(amount(*printer, {0, 0, 0}), 2) << "the black of a real printer uses more than K";
   cmsDeleteTransform(exact);
   cmsCloseProfile(profile);
   cmsCloseProfile(srgb);
@@ -189,13 +189,15 @@ TEST(IccSeparation, HugeTablesThatAHeaderAnnouncesAreNotAllocated) {
   const std::size_t grid_points = table + word(table + 24);
   ASSERT_EQ(whole.substr(grid_points, 4), std::string("\2\2\2\0", 4));
   const long before = peak_kib();
-  for (const char points : {'\xFF', '\x7F'}) {  // 4 channels of 2 bytes: 133 MB, 16 MB
+  // With 4 channels of 2 bytes, the tables would have 133 MB and 16 MB.
+  for (const char points : {'\xFF', '\x7F'}) {
     std::string lying = whole;
     lying.replace(grid_points, 3, 3, points);
     expect_refused(separation_from(lying), Code::kDataLoss, "grid points");
   }
   EXPECT_LT(peak_kib() - before, 64 * 1024);
-  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {  // its size, its number of tags
+  // Corrupts the size and the number of tags in the header.
+  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {
     std::string lying = whole;
     lying.replace(at, 4, 4, '\xFF');
     expect_refused(separation_from(lying), Code::kDataLoss, "sizes");

@@ -14,7 +14,7 @@
 
 namespace hydroprint::mesh {
 
-/// A folder for one test, removed with this object.
+/// A folder for one test, removed when this object is destroyed.
 class Folder {
  public:
   Folder() {
@@ -75,7 +75,7 @@ inline bool has_warning(const Warnings& warnings, const std::string& code) {
   return false;
 }
 
-/// A tetrahedron in each format; the corners of its first face are 0, 2, 1.
+/// A tetrahedron in each file format. The corners of its first face are 0, 2, 1.
 inline const std::string kTetrahedronObj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 

@@ -21,7 +21,8 @@ inline std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// Positions, then indices (the first one is `first`), then texture coordinates.
+/// Buffer of the tetrahedron: positions, then indices (the first one is replaced by `first`), then
+/// texture coordinates.
 inline std::string tetrahedron_buffer(int first = 0) {
   std::string bytes;
   for (const auto& corner : kCorners)
@@ -39,7 +40,7 @@ inline std::string tetrahedron_buffer(int first = 0) {
   return bytes;
 }
 
-/// glTF JSON of the tetrahedron; `parts` replaces the parts that a test corrupts.
+/// glTF JSON of the tetrahedron. `parts` replaces the parts that a test changes.
 inline std::string tetrahedron_gltf(const std::map<std::string, std::string>& parts = {}) {
   const auto part = [&](const std::string& key, const std::string& otherwise) {
     return parts.count(key) != 0 ? parts.at(key) : otherwise;

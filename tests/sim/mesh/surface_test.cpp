@@ -44,7 +44,7 @@ Model turned(Model model) {
   return model;
 }
 
-/// Each triangle with its own three points, as in an STL file.
+/// A copy of a model in which each triangle has its own three points, as in an STL file.
 Model torn(const Model& model) {
   Model apart;
   apart.path = model.path;
@@ -92,7 +92,7 @@ double longest_edge(const Surface& s) {
   return longest;
 }
 
-/// The number of welded edges that do not have exactly two sides with opposite directions.
+/// Number of welded edges that do not have exactly two sides with opposite directions.
 std::size_t bad_edges(const Surface& s) {
   std::size_t bad = 0;
   const Edges edges(s.triangles, s.weld);
@@ -147,7 +147,8 @@ TEST(MakeSurface, NeedlesAreSubdividedConformingly) {
 }
 
 TEST(MakeSurface, BarycentricsLeadBackToTheSourceTriangle) {
-  const Model model = turned(torn(box({0, 0, 0}, {30, 20, 10})));  // turned over: corners swap too
+  // The box is turned inside out, which also swaps corners.
+  const Model model = turned(torn(box({0, 0, 0}, {30, 20, 10})));
   const Surface surface = made(model);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& source = model.triangles[surface.source_triangle[t]];
@@ -324,7 +325,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
     model.vertices.push_back(30 * radial + 5 * across);
   }
   for (int i = 0; i < n; ++i) {
-    const bool last = i + 1 == n;  // the strip closes with its sides swapped
+    const bool last = i + 1 == n;  // the Moebius strip closes with its sides swapped
     const int c = last ? 1 : 2 * i + 2;
     const int d = last ? 0 : 2 * i + 3;
     model.triangles.emplace_back(2 * i, c, 2 * i + 1);

@@ -1,5 +1,5 @@
-// Accuracy of a dip at the default settings, which are also the fast ones. tests/bench prints the
-// same figures with finer runs, which would take too long here.
+// Accuracy of a dip at the default settings. tests/bench also compares with finer runs, which would
+// take too long here.
 #include <gtest/gtest.h>
 
 #include "sim/pipeline/dip.h"

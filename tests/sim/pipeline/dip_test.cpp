@@ -38,7 +38,7 @@ TEST(Dip, AFlatBottomMapsToItselfAndTheWallsAreReached) {
       EXPECT_TRUE(std::abs(film.x()) > 14.9 || std::abs(film.y()) > 9.9) << p.transpose();
       ++walls;
     } else if (std::abs(p.x()) < 14 && std::abs(p.y()) < 9) {
-      EXPECT_FALSE(film.allFinite()) << "film on the level top, " << p.transpose();
+      EXPECT_FALSE(film.allFinite()) << "the level top must not get film, at " << p.transpose();
       ++top;
     }
   });
@@ -77,7 +77,7 @@ TEST(Dip, FilmInsideARingLandsOnItsInside) {
     const double r = p.head<2>().norm();
     EXPECT_TRUE(film.allFinite()) << p.transpose();
     if (r < 22) {
-      EXPECT_LT(film.norm(), r + 0.01);  // film inside is drawn outwards
+      EXPECT_LT(film.norm(), r + 0.01);  // film inside the ring is drawn outwards
       ++inside;
     }
     if (r > 26) {
@@ -98,7 +98,8 @@ TEST(Dip, FilmBetweenTwoFeetIsSharedBetweenThem) {
     const bool faces_gap = std::abs(std::abs(p.x()) - 10) < 1e-6 && p.z() > 0.5 && p.z() < 15.5;
     if (!faces_gap || std::abs(p.y()) > 6) return;
     ASSERT_TRUE(film.allFinite()) << p.transpose();
-    EXPECT_GT(film.x() * p.x(), 0) << "from beyond the middle, " << p.transpose();
+    EXPECT_GT(film.x() * p.x(), 0)
+        << "film must come from this side of the middle, at " << p.transpose();
     EXPECT_LT(std::abs(film.x()), 10 + 1e-6);
     ++(p.x() < 0 ? left : right);
   });
@@ -222,7 +223,7 @@ TEST(Dip, StopsAtAnyStageWhenCancelled) {
     context.report = [&](std::string_view now, double) { stop = stop || now == stage; };
     context.cancelled = [&] { return stop.load(); };
     const auto d = dip(sample::icosphere(10, 3), options, context);
-    EXPECT_TRUE(stop) << stage << " was never reported";
+    EXPECT_TRUE(stop) << stage << " must be reported";
     ASSERT_FALSE(d) << stage;
     EXPECT_EQ(d.error().code, Code::kCancelled) << stage;
   }

@@ -24,7 +24,7 @@ inline DipOptions options_for(const std::string& film, FilmModel model = FilmMod
   return options;
 }
 
-/// Checks the properties of every dip: numbers or NaN, as documented.
+/// Checks the properties that every dip must have, such as numbers or NaN as documented.
 inline void expect_sound(const Dip& dip, const DipOptions& options) {
   const flow::SurfaceMap& map = dip.map.surface;
   const std::size_t points = dip.surface.points.size();
@@ -70,7 +70,7 @@ inline Dip dipped(const mesh::Model& model, const DipOptions& options) {
   return std::move(*result);
 }
 
-/// The warning with this code; its code is empty if there is none.
+/// The warning with this code; a warning with an empty code if there is none.
 inline Warning warning_of(const Dip& dip, const std::string& code) {
   const auto it = std::find_if(dip.warnings.begin(), dip.warnings.end(),
                                [&](const Warning& w) { return w.code == code; });
@@ -81,7 +81,8 @@ inline bool warns(const Dip& dip, const std::string& code) {
   return !warning_of(dip, code).code.empty();
 }
 
-/// Calls `visit` for each point with its position in F, its immersion as z, and its film.
+/// Calls `visit` for each point with its position in the film frame, whose z is the immersion, and
+/// its film point.
 template <class Visit>
 void for_each_point(const Dip& dip, Visit&& visit) {
   for (std::size_t v = 0; v < dip.surface.points.size(); ++v) {

@@ -1,4 +1,4 @@
-// Long thin films, tiny bodies, bodies at the film's edge, with both film models.
+// Long thin films, tiny bodies, and bodies at the film's edge, each with both film models.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ double depth_at(double radius_mm, double degrees) {
 
 Pose at(double x_mm, double y_mm) { return Pose(Eigen::Translation3d(x_mm, y_mm, 0)); }
 
-/// Errors of the landing points on a centred sphere, from the exact solution.
+/// Errors of the landing points on a centred sphere, compared with the exact solution.
 struct Errors {
   double rms_mm = 0, max_mm = 0;
   int count = 0;
@@ -74,7 +74,7 @@ TEST_P(Extremes, TinySpheresAreAsAccurateInMillimetresAsLargeOnes) {
 }
 
 TEST_P(Extremes, TheMapIsTheSameEverywhereAlongALongThinFilm) {
-  // The distance from either end is at least twelve times the film's width.
+  // The sphere's distance from either end is at least twelve times the film's width.
   const mesh::Model sphere = sample::icosphere(4, 5);
   DipOptions options = options_for("600x12", GetParam());
   options.depth_mm = depth_at(4, 121);
@@ -90,7 +90,7 @@ TEST_P(Extremes, TheMapIsTheSameEverywhereAlongALongThinFilm) {
     if (z > depth_at(4, 120)) continue;
     const Vector2d there = aside.map.surface.film_mm[v] - Vector2d(150.3, 0);
     EXPECT_LT((here - there).norm(), 0.02) << middle.surface.points[v].transpose();
-    // Across the strip, no film can come from beyond the edge.
+    // No film can come from beyond the long edges.
     EXPECT_LT(std::abs(here.y()), 6);
     ++reached;
   }
@@ -99,7 +99,7 @@ TEST_P(Extremes, TheMapIsTheSameEverywhereAlongALongThinFilm) {
 
 TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesTheEdge) {
   constexpr double kRadius_mm = 10;
-  for (const double gap_mm : {8.0, 4.0, 1.0}) {  // from its lowest point to the edge
+  for (const double gap_mm : {8.0, 4.0, 1.0}) {  // distance of its lowest point from the edge
     DipOptions options = options_for("60x80", GetParam());
     options.X_FO = at(30 - gap_mm, 5);
     const Dip d = dipped(sample::icosphere(kRadius_mm, 5), options);
@@ -139,13 +139,13 @@ TEST_P(Extremes, ABoxNearTheEdgeTakesTheFilmBetween) {
 }
 
 TEST_P(Extremes, ANeedleDoesNotMoveFilmFarAway) {
-  // 0.4 mm wide and 30 mm long: every length is below those of the mesh.
+  // 0.4 mm wide and 30 mm long: the needle is thinner than every length of the mesh.
   const mesh::Model needle = bodies::turned({{0, 0}, {0.2, 1}, {0.2, 30}, {0, 30}}, 16);
   DipOptions options = options_for("A4", GetParam());
   const Dip d = dipped(needle, options);
   EXPECT_GT(d.figures.coverage, 0.9);
   for_each_point(d, [&](const Vector3d& p, const Vector2d& film) {
-    // Only the film for a wall of that area comes from the surroundings.
+    // The surroundings only supply film for the needle's small wall.
     if (film.allFinite()) {
       EXPECT_LT(film.norm(), 0.2 + p.z()) << p.transpose();
     }

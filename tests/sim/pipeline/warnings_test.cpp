@@ -30,7 +30,7 @@ DipOptions options_on(const std::string& film, FilmModel model = FilmModel::kSto
   return testing::options_for(film, model);
 }
 
-/// A sphere of 20 mm, dipped to this angle, in a film far larger than it.
+/// A sphere of 20 mm radius, dipped to this contact angle in a much larger film.
 DipOptions to_angle(double theta_deg, FilmModel model = FilmModel::kStokes) {
   DipOptions options = options_on("200x200", model);
   options.depth_mm = 20 * (1 - std::cos(theta_deg * std::numbers::pi / 180));
@@ -38,7 +38,8 @@ DipOptions to_angle(double theta_deg, FilmModel model = FilmModel::kStokes) {
 }
 
 TEST(Warnings, StretchBeyondStokesIsForStokesBeyondAStretchOfOnePointThree) {
-  // Along the meridian 1 / cos(theta / 2): 1.3 at 79 degrees (field notes, section 2).
+  // The stretch along the meridian is 1 / cos(theta / 2): 1.3 at 79 degrees (field notes, section
+  // 2).
   const mesh::Model sphere = sample::icosphere(20, 4);
   EXPECT_TRUE(warns(dipped(sphere, to_angle(95)), "stretch_beyond_stokes"));
   EXPECT_FALSE(warns(dipped(sphere, to_angle(65)), "stretch_beyond_stokes"));
@@ -46,7 +47,7 @@ TEST(Warnings, StretchBeyondStokesIsForStokesBeyondAStretchOfOnePointThree) {
 }
 
 TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
-  // 1 / cos(theta / 2) is 2 at 120 degrees.
+  // The stretch 1 / cos(theta / 2) is 2 at 120 degrees.
   const mesh::Model sphere = sample::icosphere(20, 4);
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
     DipOptions options = to_angle(120, model);
@@ -54,7 +55,8 @@ TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
     options.profile.tear_stretch = 1.8;
     const Dip torn = dipped(sphere, options);
     EXPECT_TRUE(warns(torn, "film_torn"));
-    // In an infinite film from 112.5 degrees on; slightly earlier because of the clamped edge.
+    // In an infinite film, the stretch exceeds 1.8 beyond 112.5 degrees. The clamped edge makes
+    // this angle slightly smaller.
     const double share = (std::cos(1.9635) - std::cos(2 * std::numbers::pi / 3)) / 2;
     EXPECT_GT(torn.figures.torn_share, 0.9 * share);
     EXPECT_LT(torn.figures.torn_share, 2 * share);
@@ -62,7 +64,7 @@ TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
 }
 
 TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
-  // Around the sphere cos(theta / 2): 0.6 at 106 degrees.
+  // The stretch around the sphere is cos(theta / 2): 0.6 at 106 degrees.
   const mesh::Model sphere = sample::icosphere(20, 4);
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
     EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), "film_wrinkled"));
@@ -97,7 +99,7 @@ TEST(Warnings, FilmWrinkledComesWithAPicture) {
 }
 
 TEST(Warnings, ThetaClampedIsForFacesThatFaceUp) {
-  // The level top of a cone, and a spindle that is pointed at both ends.
+  // The cone has a level top. The spindle is pointed at both ends.
   EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), "theta_clamped"));
   const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
   EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), "theta_clamped"));
@@ -129,8 +131,8 @@ TEST(Warnings, DragIgnoredIsForStokes) {
   EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
 }
 
-// Tested with figures, because slits too narrow to mesh are closed beforehand, so few bodies still
-// get here.
+// Tested with numbers instead of a body: slits that are too narrow to mesh are closed beforehand,
+// so hardly any body causes this warning.
 TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
   EXPECT_TRUE(warnings_of_motion(20, {}, 0).empty());
   const Warnings some = warnings_of_motion(18, {3.5, 7}, 0);
@@ -141,7 +143,7 @@ TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
 }
 
 TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
-  // Two legs that join at the bottom: film between them is drawn both ways until it folds.
+  // Film between two legs that join at the bottom is drawn towards both until it folds.
   const Result<mesh::Model> bend = sample::make_model("ubend");
   ASSERT_TRUE(bend) << bend.error().message;
   DipOptions options = options_on("A4", FilmModel::kSheet);
@@ -152,7 +154,7 @@ TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
 
 // --- trapped film and air
 
-/// Area of a regular polygon of 64 corners.
+/// Area of a regular polygon with 64 corners on a circle of this radius.
 double round_area_mm2(double radius_mm) {
   return 32 * radius_mm * radius_mm * std::sin(std::numbers::pi / 32);
 }
@@ -164,7 +166,7 @@ TEST(Warnings, ARingTrapsFilmButNoAir) {
   ASSERT_EQ(ring.figures.traps.size(), 1U);
   const waterline::Trap& trap = ring.figures.traps[0];
   EXPECT_LT(trap.immersion_mm, 0.1);
-  // From the inner edge of the facet on which it lies.
+  // The film is trapped within the inner edge of the facet on which the ring lies.
   const double area_mm2 = round_area_mm2(24 - 7 * std::sin(std::numbers::pi / 32));
   EXPECT_NEAR(trap.area_mm2, area_mm2, 0.01 * area_mm2);
   EXPECT_LT(trap.place_mm.norm(), 0.1);
@@ -183,7 +185,7 @@ TEST(Warnings, ARingWithAGapTrapsNothing) {
 }
 
 TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
-  // 14 mm inner radius, its ceiling 20 mm up.
+  // The inner radius is 14 mm, and the ceiling is 20 mm above the mouth.
   const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_on("100x90"));
   EXPECT_TRUE(warns(down, "film_trapped"));
   EXPECT_TRUE(warns(down, "air_trapped"));
@@ -237,7 +239,7 @@ TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
   ASSERT_FALSE(legs.figures.traps.empty());
   EXPECT_NEAR(legs.figures.traps[0].immersion_mm, 10, 0.05);
   EXPECT_NEAR(legs.figures.traps[0].air_mm3, 28 * 28 * 6, 0.02 * 28 * 28 * 6);
-  // The same without the rim: a table, from under whose top the air can escape.
+  // The same body without the rim is a table: air can escape from under its top.
   const Dip table =
       dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 16, 20},
                             [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),

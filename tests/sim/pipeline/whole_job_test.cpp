@@ -1,5 +1,5 @@
-// Every sample, and the real models if they are present, through the whole chain and back. Each
-// landed colour must match the texture at that point.
+// Simulates every sample, and the real models if they are present, and lands the film image on them
+// again. The landed colours must match the texture.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -28,7 +28,7 @@ struct Body {
   double scale = 1;
   double turn_x_rad = 0;
   double least_coverage = 0;
-  double least_right = 0.97;  ///< share of points with the correct colour
+  double least_right = 0.97;  ///< least share of points with the correct colour
 };
 
 void PrintTo(const Body& body, std::ostream* out) { *out << body.name; }
@@ -52,7 +52,8 @@ fs::path write_gradient(const fs::path& folder) {
   return folder / "gradient.png";
 }
 
-/// The texture coordinate of each point of the surface; nullopt at seams, where it has several.
+/// The texture coordinate of each point of the surface; nullopt at seams, where a point has
+/// several.
 std::vector<std::optional<Vector2f>> point_uvs(const mesh::Model& model,
                                                const mesh::Surface& surface) {
   std::vector<std::optional<Vector2f>> uvs(surface.points.size());
@@ -78,7 +79,7 @@ class WholeJobOf : public ::testing::TestWithParam<Body> {};
 
 TEST_P(WholeJobOf, EachColourLandsWhereTheTextureHasIt) {
   const Body& body = GetParam();
-  if (!body.mesh.empty() && !fs::exists(body.mesh)) GTEST_SKIP() << body.mesh << " is not here";
+  if (!body.mesh.empty() && !fs::exists(body.mesh)) GTEST_SKIP() << body.mesh << " does not exist";
   const testing::TemporaryFolder folder;
   SimulateOptions options;
   options.mesh = body.mesh;
@@ -114,7 +115,8 @@ TEST_P(WholeJobOf, EachColourLandsWhereTheTextureHasIt) {
   const auto uvs = point_uvs(simulation->model, simulation->dip.surface);
   int compared = 0, right = 0;
   for (std::size_t v = 0; v < uvs.size(); ++v) {
-    // Where film is stretched to several times its length, a film pixel covers too large an area.
+    // Where film is stretched to several times its length, a film pixel covers too large an area to
+    // be compared.
     const bool is_telling = map.stretch[v] < 3 && map.least_stretch[v] > 0.3;
     if (!uvs[v] || !is_telling || !landed[v].allFinite()) continue;
     ++compared;
@@ -140,13 +142,13 @@ INSTANTIATE_TEST_SUITE_P(
                       Body{"bunny", kModels / "bunny/bunny_with_uv.obj", 300, kUpright, 0.8},
                       Body{"head", kModels / "head/LeePerrySmith_converted.obj", 7, kUpright, 0.6},
                       Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4},
-                      // three open shells that meet in rings, where film lands on either
+                      // three open shells that meet in rings; film there may land on either shell
                       Body{"bottle", kModels / "bottle/WaterBottle.gltf", 400, kUpright, 0.6,
                            0.94}));
 
 TEST(WholeJob, AModelWithoutColourGivesAWhiteFilm) {
   const fs::path cat = kModels / "cat/cat-low-resolution.obj";
-  if (!fs::exists(cat)) GTEST_SKIP() << cat << " is not here";
+  if (!fs::exists(cat)) GTEST_SKIP() << cat << " does not exist";
   SimulateOptions options;
   options.mesh = cat;
   options.scale = 10;

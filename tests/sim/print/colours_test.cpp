@@ -68,7 +68,7 @@ TEST(PrinterColours, NoPixelExceedsTheInkLimitAndBlackStays) {
       ++changed;
       EXPECT_GE(total(cmyk), static_cast<int>(limit * 255) - 3);
       EXPECT_EQ(cmyk[3], std::min<int>(before[3], static_cast<int>(limit * 255)));
-      // The same hue: shares of C, M and Y match within 8-bit rounding.
+      // The hue must not change: the shares of C, M and Y are equal except for 8-bit rounding.
       const double colour = before[0] + before[1] + before[2], left = cmyk[0] + cmyk[1] + cmyk[2];
       for (int c = 0; colour > 0 && c < 3; ++c) {
         EXPECT_NEAR(cmyk[c], before[c] * left / colour, 2);

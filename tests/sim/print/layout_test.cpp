@@ -36,7 +36,7 @@ Layout laid(const std::string& film, const PageSettings& settings, double dpi = 
 
 const text::Font& font() { return *text::Font::standard().value(); }
 
-/// Places 0.25 mm apart all over a box.
+/// Points that are about 0.25 mm apart, all over a box.
 std::vector<Vector2d> places_in(const Box& box) {
   std::vector<Vector2d> out;
   const Eigen::Vector2i steps = (box.size_mm() / 0.25).cast<int>() + Eigen::Vector2i::Ones();
@@ -55,8 +55,8 @@ bool overlap(const Box& a, const Box& b) {
          (b.low_mm.array() < a.high_mm.array()).all();
 }
 
-/// The ink of all text is on paper that can be printed, a millimetre off the film, and does not
-/// overlap other text or strokes.
+/// Expects that all text is within the printable area, at least 1 mm away from the film, and does
+/// not overlap other text or strokes.
 void expect_text_off_film(const Sheet& sheet, double margin_mm) {
   for (std::size_t i = 0; i < sheet.texts.size(); ++i) {
     const Box box = text_box(font(), sheet.texts[i]);
@@ -81,8 +81,8 @@ void expect_text_off_film(const Sheet& sheet, double margin_mm) {
   }
 }
 
-/// Every stroke, at places 0.25 mm apart along it and with its pen's width, on paper that can be
-/// printed and a millimetre off the film.
+/// Expects that all text and all strokes are within the printable area and at least 1 mm away from
+/// the film. Strokes are checked at points 0.25 mm apart, with the width of their pens.
 void expect_marks_off_film(const Layout& layout, double margin_mm) {
   for (const Sheet& sheet : layout.sheets) {
     expect_text_off_film(sheet, margin_mm);
@@ -250,7 +250,7 @@ TEST(Layout, SheetsCoverALargerFilmAndOverlapAsRequested) {
         EXPECT_EQ(own.x1 == grid.columns, sheet.column == layout.columns - 1);
         EXPECT_EQ(own.y0 == 0, sheet.row == 0);
         EXPECT_EQ(own.y1 == grid.rows, sheet.row == layout.rows - 1);
-        // All of it is within the printable area.
+        // The whole window is printed.
         EXPECT_EQ(sheet.printable.width(), own.width());
         EXPECT_EQ(sheet.printable.height(), own.height());
         if (sheet.column > 0) {

@@ -1,4 +1,4 @@
-// The verb template; other programs read its page, and the test measures it.
+// The verb template. Other programs read its page, and the tests measure the result.
 
 #include <gtest/gtest.h>
 
@@ -65,14 +65,14 @@ TEST_F(Template, ShowsFirstContactAtThePoseAndAtExactScale) {
   const auto report = nlohmann::json::parse(bytes_of(path("out/report.json")));
   EXPECT_NEAR(report["placement"]["contact_mm"][0], 25, 1e-3);
   EXPECT_NEAR(report["placement"]["contact_mm"][1], -23, 1e-3);
-  // Half a millimetre above its tip the pyramid has a hundredth of its size at the top.
+  // 0.5 mm above its tip, the pyramid has a hundredth of its size at the top.
   EXPECT_NEAR(report["placement"]["contact_size_mm"][0], 0.6, 1e-3);
   EXPECT_NEAR(report["placement"]["contact_size_mm"][1], 0.4, 1e-3);
   const std::string trace = traced_by_mupdf(path("out/placement.pdf"));
   const Extent contact = extent_of_strokes(trace, 0.6);
   EXPECT_NEAR(contact.x0, 105 + 25 - 0.3, 1e-2);
   EXPECT_NEAR(contact.x1, 105 + 25 + 0.3, 1e-2);
-  // Coordinates of the page run upwards, like the film's.
+  // The y coordinates of the page increase upwards, like those of the film.
   EXPECT_NEAR(contact.y0, 148.5 - 23 - 0.2, 1e-2);
   EXPECT_NEAR(contact.y1, 148.5 - 23 + 0.2, 1e-2);
   const Ended info = testing::run({"/usr/bin/pdfinfo", path("out/placement.pdf")});

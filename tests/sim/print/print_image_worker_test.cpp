@@ -1,4 +1,4 @@
-// The verb print-image; other programs read its files, and the test measures them.
+// The verb print-image. Other programs read its files, and the tests measure the results.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ void fill(image::RgbImage& image, int x0, int y0, int x1, int y1, const image::R
   }
 }
 
-/// Photograph-like: smooth, with noise.
+/// An image like a photograph: smooth, with noise.
 image::RgbImage scenery(int width, int height) {
   std::mt19937 random(5);
   image::RgbImage out = blank(width, height);
@@ -112,10 +112,10 @@ TEST_F(PrintImage, ThePdfsScaleIsExactOverTheWholeFilm) {
   const auto across = lines_in(row), along = lines_in(column);
   ASSERT_EQ(along.size(), 2U);
   ASSERT_EQ(across.size(), 2U);
-  // Poppler aligns images to its own whole pixels.
+  // The tolerance is needed because poppler aligns images to whole pixels.
   EXPECT_NEAR((along[1] - along[0]) * kMmPerPixel, (y1 - y0) * kPitch_mm, 0.05);
   EXPECT_NEAR((across[1] - across[0]) * kMmPerPixel, (x1 - x0) * kPitch_mm, 0.05);
-  // The film's middle is at the paper's middle.
+  // The film's middle must be at the paper's middle.
   EXPECT_NEAR(along[0] * kMmPerPixel, 148.5 + (y0 + 0.5 - 877) * kPitch_mm, 0.05);
   EXPECT_NEAR(across[0] * kMmPerPixel, 105 + (x0 + 0.5 - 620) * kPitch_mm, 0.05);
 }
@@ -129,7 +129,7 @@ TEST_F(PrintImage, ImageAndRulerSizesAreExactToTheMicrometre) {
   ASSERT_TRUE(std::regex_search(trace, match, placed)) << trace.substr(0, 2000);
   EXPECT_NEAR(std::abs(std::stod(match[1])) * 25.4 / 72, 787 * 0.254, 1e-3);
   EXPECT_NEAR(std::abs(std::stod(match[2])) * 25.4 / 72, 787 * 0.254, 1e-3);
-  // Lines that have two points; the longest are those of the rulers.
+  // Lines with two points. The longest of them belong to the rulers.
   const std::regex line(
       "<moveto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*<lineto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*</");
   int rulers = 0;
@@ -178,7 +178,7 @@ TEST_F(PrintImage, CmykIsUnchangedInPdfAndTiffAndRespectsTheInkLimit) {
   Arguments limited = small;
   limited.insert(limited.end(), {"--ink-limit", "1.2"});
   const std::array<int, 4> black = {0, 0, 0, 255}, white = {0, 0, 0, 0};
-  // (60, 90, 30): K = 165; C, M, Y = 1/3, 0, 2/3 of all.
+  // The colour (60, 90, 30) has K = 165, and C, M, Y = 1/3, 0, 2/3 of 255.
   for (const auto& [flags, red, green] :
        {std::tuple{small, std::array<int, 4>{0, 255, 255, 0}, std::array<int, 4>{85, 0, 170, 165}},
         std::tuple{limited, std::array<int, 4>{0, 153, 153, 0},
@@ -198,7 +198,7 @@ TEST_F(PrintImage, CmykIsUnchangedInPdfAndTiffAndRespectsTheInkLimit) {
     }
   }
   auto tiff = tiff_tags(path("out/print.tif"));
-  EXPECT_EQ(tiff[262], 5);  // separated
+  EXPECT_EQ(tiff[262], 5);  // separated (CMYK)
   EXPECT_EQ(tiff[277], 4);
 }
 
@@ -243,7 +243,7 @@ TEST_F(PrintImage, AReprintIsByteIdentical) {
   one.insert(one.end(), {"--threads", "1"});
   two.insert(two.end(), {"--threads", "3"});
   print(one, "one");
-  // The current time in a file would differ.
+  // Waits, so that files that contain the time of writing would differ.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   print(two, "two");
   for (const std::string name : {"/print.pdf", "/print.png", "/print.tif"}) {
@@ -269,7 +269,8 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   image::RgbImage image = blank(827, 1169);  // A4 at 100 dpi
   fill(image, 400, 500, 500, 600, {0, 0, 255});
   film(image);
-  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);  // for marks only
+  // The only warning is about marks.
+  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);
   fill(image, 0, 500, 400, 600, {0, 0, 255});
   film(image);
   const auto report = print({"--printer-margin-mm", "5", "--formats", "png"});

@@ -16,7 +16,7 @@ void run(const std::vector<std::string>& command) {
   if (ended.status != 0) throw std::runtime_error(command[0] + ": " + ended.err);
 }
 
-/// Reads the header up to the pixels; does not support comments.
+/// Reads the header of a PAM file up to the pixels. Comments are not supported.
 Raster read_pam(std::istream& in) {
   Raster out;
   std::string word;
@@ -48,12 +48,12 @@ Raster read_netpbm(const std::filesystem::path& path) {
     in >> out.width >> out.height >> most;
     out.channels = magic == "P5" ? 1 : 3;
   } else {
-    throw std::runtime_error(path.string() + ": no netpbm file");
+    throw std::runtime_error(path.string() + ": not a netpbm file");
   }
   in.get();
   out.samples.resize(static_cast<std::size_t>(out.width) * out.height * out.channels);
   in.read(reinterpret_cast<char*>(out.samples.data()), static_cast<long>(out.samples.size()));
-  if (!in) throw std::runtime_error(path.string() + ": cut short");
+  if (!in) throw std::runtime_error(path.string() + ": truncated");
   return out;
 }
 
@@ -82,7 +82,7 @@ std::string traced_by_mupdf(const std::filesystem::path& pdf) {
 
 std::map<int, double> tiff_tags(const std::filesystem::path& path) {
   const std::string file = bytes_of(path);
-  if (!file.starts_with("II*")) throw std::runtime_error("no little-endian TIFF");
+  if (!file.starts_with("II*")) throw std::runtime_error("not a little-endian TIFF file");
   const auto u16 = [&](std::size_t at) {
     std::uint16_t value = 0;
     std::memcpy(&value, &file.at(at), 2);

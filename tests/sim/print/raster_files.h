@@ -30,10 +30,10 @@ struct Raster {
 /// The drawing operations of a PDF's pages, as text, by MuPDF.
 [[nodiscard]] std::string traced_by_mupdf(const std::filesystem::path& pdf);
 
-/// Numbers in a TIFF's first directory by their tags (rationals as quotients).
+/// Numbers in a TIFF's first directory, by tag; rationals as quotients.
 [[nodiscard]] std::map<int, double> tiff_tags(const std::filesystem::path& path);
 
-/// Pixels per metre, across and down.
+/// Resolution of a PNG in pixels per metre, across and down.
 struct PngResolution {
   std::uint32_t per_metre_x = 0, per_metre_y = 0;
 };

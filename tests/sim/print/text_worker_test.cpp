@@ -1,4 +1,4 @@
-// The text on pages, through the program; its files are read by other programs.
+// The text on pages. Other programs read the files of the program.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class PageText : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// Prints with a job name and returns what the program said.
+  /// Prints with a job name and returns the exit status and output of the program.
   Ended print(const std::string& job_name, const Arguments& more = {}) const {
     Arguments all = print_image({"--job-name", job_name});
     all.insert(all.end(), more.begin(), more.end());
@@ -113,7 +113,7 @@ TEST_F(PageText, CapitalAndSmallLettersArePrintedDifferently) {
   EXPECT_NE(capital.samples, small.samples);
 }
 
-/// Boxes of the words of a page as pdftotext finds them, in points from the upper left corner.
+/// A word of a page and its box as found by pdftotext, in points from the upper left corner.
 struct Word {
   std::string text;
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
@@ -193,7 +193,7 @@ TEST_F(PageText, CharactersThatTheFontLacksAreReplacedAndNamed) {
 }
 
 TEST_F(PageText, CharactersThatShareAGlyphAreToldApart) {
-  // Ohm sign and omega, no-break space, micro sign and mu.
+  // No-break spaces, the ohm sign and omega, the micro sign and mu.
   print("10\u00A0k\u2126 \u03A9 5\u00A0\u00B5m \u03BCm");
   const std::string text = text_of("out/print.pdf");
   for (const char* each : {"\u2126", "\u03A9", "\u00B5m", "\u03BCm"}) {
@@ -220,7 +220,7 @@ TEST_F(PageText, LongTitlesEndInAnEllipsisWithinTheMargin) {
   EXPECT_NE(text.find("Mug 7 ÄÖÜ gjpqy"), std::string::npos) << text;
   EXPECT_NE(text.find("…"), std::string::npos) << text;
   EXPECT_NE(text.find("2025-03-14"), std::string::npos) << text;
-  const Raster page = drawn_by_poppler(path("out/print.pdf"), 254);  // ten pixels a millimetre
+  const Raster page = drawn_by_poppler(path("out/print.pdf"), 254);  // ten pixels per millimetre
   for (int y = 0; y < page.height; ++y) {
     for (int x = 0; x < page.width; ++x) {
       const bool is_margin = std::min({x, y, page.width - 1 - x, page.height - 1 - y}) < 59;

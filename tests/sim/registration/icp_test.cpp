@@ -1,4 +1,4 @@
-// PCL's alignment from inaccurate starts.
+// Alignment by PCL from inaccurate start poses.
 #include "sim/registration/icp.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace hydroprint::registration {
 namespace {
 
-/// The view of a board: one face, which determines only three of its motions.
+/// Points of a board's visible face, which determines only three of the six motions.
 std::vector<SurfacePoint> seen_face() {
   std::vector<SurfacePoint> out;
   for (int i = -10; i <= 10; ++i)
@@ -29,7 +29,7 @@ TEST(Icp, AlignsAFlatFaceWithItsBody) {
   const Eigen::Vector3d normal = found.pose.linear().col(2);
   EXPECT_LT(std::acos(std::min(1.0, normal.z())), 0.001);
   EXPECT_NEAR((found.pose * Eigen::Vector3d(0, 0, 10)).z(), 10, 0.05);
-  // It must not drift along directions that the points do not determine.
+  // The pose must not drift along directions that the points do not determine.
   EXPECT_LT((found.pose * Eigen::Vector3d(0, 0, 10)).head<2>().norm(), 5);
 }
 

@@ -10,7 +10,7 @@
 namespace hydroprint::registration {
 namespace {
 
-/// Points in the middle of a plate perpendicular to the camera's axis.
+/// Points in the middle of a plate that is perpendicular to the camera's axis.
 std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
   std::vector<scan::ScanPoint> out;
   for (int v = -10; v <= 10; ++v) {
@@ -34,7 +34,8 @@ std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
 TEST(PoseFit, MakesNoStepAlongUndeterminedMotions) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_a_plate(800);
-  const Pose start(Eigen::Translation3d(3, -2, 802));  // its underside faces the camera
+  // The start is 2 mm too far away. The underside of the plate faces the camera.
+  const Pose start(Eigen::Translation3d(3, -2, 802));
   FitOptions options;
   options.weak_sigma_mm = std::numeric_limits<double>::infinity();
   const auto fit = fit_pose(plate, points, {}, start, start, options, testing::two_threads());
@@ -44,7 +45,8 @@ TEST(PoseFit, MakesNoStepAlongUndeterminedMotions) {
   EXPECT_TRUE(fit->covariance.allFinite());
 }
 
-/// The face of a plate and one narrow side of it; the camera's pattern is known to a tenth.
+/// Points of a plate's face and of one narrow side. A tenth of the camera's constant noise is
+/// unknown.
 std::vector<scan::ScanPoint> points_of_two_faces(double z_mm) {
   std::vector<scan::ScanPoint> out;
   const auto add = [&](const Eigen::Vector3d& at, const Eigen::Vector3d& normal) {
@@ -65,8 +67,8 @@ std::vector<scan::ScanPoint> points_of_two_faces(double z_mm) {
   return out;
 }
 
-/// The better a camera is known, the smaller the chance that a point is far off. Before a fit has
-/// converged, points are far off regardless of the noise.
+/// With a well-known camera, noise hardly ever moves a point far away. Before a fit has converged,
+/// however, points are far from the body, and the fit must not drop them as outliers.
 TEST(PoseFit, ConvergesOntoANarrowSideForAnyCameraAccuracy) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_two_faces(800);
@@ -78,7 +80,7 @@ TEST(PoseFit, ConvergesOntoANarrowSideForAnyCameraAccuracy) {
       Eigen::MatrixXd::Zero(scan::Lens::kParameters, static_cast<Eigen::Index>(points.size())));
   const auto fit = fit_pose(plate, points, camera, start, start, {}, testing::two_threads());
   ASSERT_TRUE(fit) << fit.error().message;
-  EXPECT_EQ(fit->weak.size(), 1U);  // along the side
+  EXPECT_EQ(fit->weak.size(), 1U);  // the motion along the narrow side
   EXPECT_NEAR(fit->X_CB.translation().x(), -300, 0.1);
 }
 

@@ -21,7 +21,8 @@ double stepped(double depth_mm) {
   return kScale_mm / (std::round(kScale_mm / depth_mm - kShift) + kShift);
 }
 
-/// A slope from one depth to another, across the image, with noise and steps, in whole mm.
+/// A surface that slopes across the image from one depth to another, with noise and depth steps, in
+/// whole mm.
 DepthFrame slope(double from_mm, double to_mm, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, DepthNoise{}.changing_sigma_mm(from_mm));
@@ -50,11 +51,11 @@ TEST(DepthSteps, AreNotFoundInSmoothDepths) {
   }
   EXPECT_FALSE(find_depth_steps(std::vector{smooth}));
   EXPECT_FALSE(find_depth_steps(std::vector{whole}));
-  EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few for a result
+  EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few steps for a result
   EXPECT_FALSE(find_depth_steps(DepthCounts{}));
 }
 
-/// The largest error of many frames' mean that all pixels of a depth share.
+/// Largest error of the mean of many frames that all pixels of the same depth share.
 double shared_error_mm(double from_mm, double to_mm, const std::optional<DepthSteps>& steps) {
   constexpr int kFrames = 30;
   std::vector<DepthFrame> frames;
@@ -76,7 +77,7 @@ TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
   EXPECT_GT(shared_error_mm(700, 950, {}), 0.3);
 }
 
-/// Frames that only contain steps shorter than 1 mm do not reveal them.
+/// Frames with only steps of less than 1 mm do not reveal the steps.
 TEST(DepthSteps, OfFarFramesHelpNearFrames) {
   const std::vector near{slope(480, 590, 1)}, far{slope(700, 950, 1)};
   EXPECT_FALSE(find_depth_steps(near));

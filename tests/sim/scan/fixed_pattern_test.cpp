@@ -25,7 +25,7 @@ Lens lens_of_64() {
   return out;
 }
 
-/// Waves over the image; the last unknown is common to all offsets.
+/// A pattern of waves over the image. The last unknown is common to all offsets.
 FixedPattern wavy_pattern() {
   FixedPattern out{kPatternWidth, kPatternHeight, kPatternPatch};
   for (std::size_t i = 0; i < out.patches(); ++i)
@@ -37,7 +37,7 @@ FixedPattern wavy_pattern() {
   return out;
 }
 
-/// The frame of a camera with such a pattern that looks straight at a wall.
+/// The frame of a camera with this pattern that looks straight at a wall.
 FusedFrame wall_through(const FixedPattern& pattern) {
   FusedFrame out{
       {kPatternWidth, kPatternHeight, std::vector<float>(kPatternWidth * kPatternHeight)},
@@ -101,7 +101,7 @@ TEST(FixedPattern, SharedErrorsAreStoredToWithinAStep) {
   EXPECT_LT((kept - shared).cwiseAbs().maxCoeff(), 0.51 / 127);
 }
 
-/// The shift of a point for a change of the camera's unknowns.
+/// Compares the derivatives of a point's position by the camera's unknowns with differences.
 TEST(CameraErrors, AreTheDerivativesOfAPointByLensAndPattern) {
   Camera camera{lens_of_64(), {}, wavy_pattern()};
   const Lens::Matrix mixed = Lens::Matrix::Random();

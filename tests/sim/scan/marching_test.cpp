@@ -17,7 +17,7 @@ using Eigen::Vector3i;
 constexpr int kCount = 24;
 constexpr double kSpacing_mm = 2;
 
-/// The surface of a ball of 17 mm, away from all symmetric positions.
+/// The surface of a ball of 17 mm radius, whose middle has no symmetric position in the grid.
 TriangleMesh ball() {
   const Vector3d middle(24.3, 23.1, 24.9);
   MarchingTetrahedra marching(Vector3i::Constant(kCount), Vector3d::Zero(), kSpacing_mm);

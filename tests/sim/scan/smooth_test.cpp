@@ -19,7 +19,7 @@ DepthFrame drawn(const std::function<double(int u, int v)>& depth_mm) {
   return out;
 }
 
-/// A plane at 45 degrees, seen by a camera with a focal length of 575.8 px.
+/// Depth of a plane at 45 degrees, seen by a camera with a focal length of 575.8 px.
 double plane_mm(int u, int /*v*/) { return 800 / (1 - (u - kWidth_px / 2.0) / 575.8); }
 
 DepthFrame smoothed(const DepthFrame& frame) {
@@ -50,7 +50,7 @@ TEST(Smooth, LeavesAPlaneAndGapsUnchanged) {
     EXPECT_NEAR(out.depth_mm[i], frame.depth_mm[i], 0.001);
 }
 
-/// A fifth of the noise of 25 patches remains.
+/// The mean of 25 patches has a fifth of their noise.
 TEST(Smooth, RemovesTheNoiseOfPatchesInEveryFrame) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1.1);

@@ -40,14 +40,14 @@ Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
   return fuse(frames, Camera{lens}, context);
 }
 
-/// The best possible result of calibrate-camera for a camera's constant noise.
+/// The exact fixed pattern of a camera, as the best possible result of calibrate-camera.
 FixedPattern pattern_of(std::uint64_t seed) {
   FixedPattern out{640, 480, 4, simulated_camera::constant_noise(seed)};
   out.sigma.assign(out.patches(), 0);
   return out;
 }
 
-/// The largest position error of the tracked camera.
+/// Largest position error of the tracked camera.
 double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   double out = 0;
   for (std::size_t i = 0; i < sweep.path.X_WC.size(); ++i) {
@@ -58,7 +58,7 @@ double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   return out;
 }
 
-/// The surface error, over the given share of its points with the smallest errors.
+/// Error of the fused surface over the given share of its points, those with the smallest errors.
 double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
   const registration::Shape truth(camera.scene());
   const double sigma_mm = DepthNoise{}.sigma_mm(800);
@@ -120,7 +120,8 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
 TEST(Sweep, NamesTheFrameThatWasLost) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(4);
-  for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));  // turned away
+  // The camera is turned to a wall.
+  for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));
   const auto lost = fuse(frames, camera.lens());
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.error().reason, "CAMERA_LOST");
@@ -128,10 +129,11 @@ TEST(Sweep, NamesTheFrameThatWasLost) {
       << lost.error().message;
 }
 
-/// After a jump, each frame is either lost or placed correctly.
+/// After a jump, each frame must be either lost or placed correctly.
 TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   const SweptCamera camera(block());
-  for (const int jump : {9, 70}) {  // 50 mm and half a metre
+  // During the skipped frames, the camera moves by 50 mm and by 0.5 m.
+  for (const int jump : {9, 70}) {
     std::vector<DepthFrame> frames = camera.frames(4);
     for (int i = 0; i < 2; ++i) frames.push_back(camera.frame(3 + jump + i));
     const auto sweep = fuse(frames, camera.lens());

@@ -74,8 +74,8 @@ Volume fused(const Surface& surface, const Optics& optics) {
   return out;
 }
 
-/// The nearest pixel's depth counts, so a point's error is at most the plane's slope over half a
-/// pixel (4 mm from corner to middle). The errors cancel on average.
+/// A point uses the depth of the nearest pixel, so its error is at most the plane's slope times
+/// half a pixel (4 mm from corner to middle). The errors cancel on average.
 TEST(Volume, ReproducesAPlaneToWithinPixels) {
   const Volume volume = fused(plane, Optics(small_lens()));
   int asked = 0;
@@ -95,7 +95,7 @@ TEST(Volume, ReproducesAPlaneToWithinPixels) {
   EXPECT_NEAR(sum / asked, 0, 0.05);
 }
 
-/// Pixels are 5.6 mm wide here, and the surface within each is treated as flat.
+/// Pixels are 5.6 mm wide here, and the surface within each pixel is treated as flat.
 TEST(Volume, SurfaceAndViewOfABallAreOnTheBall) {
   const Optics optics(small_lens());
   const Volume volume = fused(meets_ball, optics);
@@ -124,7 +124,7 @@ constexpr double kBehind_mm = 950;
 const Vector3d kDisc(0, 0, 800);
 constexpr double kDiscRadius_mm = 60;
 
-/// A disc in front of a wall.
+/// Distance along a ray to a disc in front of a wall.
 std::optional<double> disc(const Vector3d& from, const Vector3d& along) {
   const double way = (kDisc.z() - from.z()) / along.z();
   const bool is_hit = (from + way * along - kDisc).norm() < kDiscRadius_mm;
@@ -158,7 +158,7 @@ TEST(Volume, SlopesAwayFromAWallAlongTheRays) {
   ASSERT_TRUE(slope);
   EXPECT_NEAR(slope->distance_mm, 2, 0.01);
   EXPECT_LT((slope->gradient + Vector3d::UnitZ()).norm(), 0.01);
-  EXPECT_FALSE(volume.slope(kMiddle - Vector3d(0, 0, 11), 3));  // beyond the truncation
+  EXPECT_FALSE(volume.slope(kMiddle - Vector3d(0, 0, 11), 3));  // beyond the truncation distance
   EXPECT_FALSE(volume.slope(Vector3d::Zero(), 3));
 }
 

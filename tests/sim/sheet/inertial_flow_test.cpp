@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 constexpr double kRadius_mm = 20;
 constexpr double kDipSpeed_mm_per_s = 5;
 
-/// A sphere off the middle of its film, to theta = 100 degrees.
+/// The Stokes dip of a sphere off the middle of its film, to theta = 100 degrees.
 flow::DipField stokes() {
   hydroprint::testing::DipSetting setting;
   setting.film = hydroprint::testing::film_of("100x80");
@@ -29,7 +29,7 @@ flow::DipField stokes() {
       .field;
 }
 
-/// A thick band next to the sphere.
+/// Thickness of the film at rest, with a thick band next to the sphere.
 double rest_thickness(const std::array<Vector2d, 3>& rest_mm) {
   const double x = (rest_mm[0] + rest_mm[1] + rest_mm[2]).x() / 3;
   return 0.5 + 0.2 / (1 + std::pow((x - 15) / 6, 4));
@@ -56,7 +56,7 @@ flow::DipField quasistatic(const flow::DipField& first) {
   return sheet_flow(first, rest_thickness, {0, 1e-5, 20}, {}).value().field;
 }
 
-/// Largest distance between the rest positions of the film at the last waterline.
+/// Largest distance between the rest positions of film nodes at the last waterline, in two dips.
 double apart_mm(const flow::DipField& a, const flow::DipField& b) {
   const std::size_t last = a.fields.size() - 1;
   const auto rest_a = flow::trace_back(a, last), rest_b = flow::trace_back(b, last);
@@ -77,9 +77,10 @@ double largest(const velocity::VelocityField& field) {
 TEST(InertialFlow, ConvergesToTheQuasistaticSheetLinearlyInItsStep) {
   const flow::DipField first = stokes();
   const flow::DipField slow = quasistatic(first);
-  // A step displaces film by the share g dt of the sphere's radius, g = u / R. The error of its
-  // velocity is less than half that share (SheetStep.ConvergesToTheQuasistaticSheet...: a quarter).
-  // The error of the film's position is the sum of these over the dip.
+  // A step displaces film by the share g dt of the sphere's radius, with g = u / R. The relative
+  // error of its velocity is less than half that share (a quarter in
+  // SheetStep.ConvergesToTheQuasistaticSheet...). The error of the film's position is the sum of
+  // the velocity errors over the dip.
   double bound_mm_per_s = 0;
   for (std::size_t k = 1; k < first.fields.size(); ++k) {
     const double u = largest(first.fields[k]);
@@ -91,11 +92,11 @@ TEST(InertialFlow, ConvergesToTheQuasistaticSheetLinearlyInItsStep) {
   const flow::DipField of_5_ms = with_inertia(first, inertial_options(0.005));
   const double at_20_ms = apart_mm(of_20_ms, slow);
   EXPECT_LT(at_20_ms, 0.02 * bound_mm_per_s);
-  // Halving the step halves its effect; the error of the limit itself is tested below.
+  // Halving the step halves its effect. The error at the default step is tested below.
   EXPECT_NEAR(std::log2(apart_mm(of_20_ms, of_10_ms) / apart_mm(of_10_ms, of_5_ms)), 1, 0.1);
   const double by_default = InertialOptions().step_mm / kDipSpeed_mm_per_s;
   EXPECT_LT(apart_mm(with_inertia(first, inertial_options(by_default)), slow), 0.0025);
-  // The thickness does matter: they do not agree just because both are Stokes flow.
+  // The thickness matters, so the two results do not agree merely because both equal Stokes flow.
   EXPECT_GT(apart_mm(first, slow), 20 * at_20_ms);
 }
 

@@ -36,12 +36,12 @@ double smoothstep(double x) {
   return t * t * t * (t * (6 * t - 15) + 10);
 }
 
-/// A ring of ink from 25 to 40 mm that doubles the film.
+/// Thickness of a film with a ring of ink from 25 to 40 mm that doubles the thickness.
 double ringed_mm(double r) {
   return kBase_mm + kBase_mm * (smoothstep((r - 25) / 3) - smoothstep((r - 40) / 3));
 }
 
-/// Means over a triangle, from the middles of its 64 congruent parts.
+/// Mean thickness of a triangle, from the middles of its 64 congruent parts.
 RestThickness mean_of(const std::function<double(double)>& thickness_mm) {
   return [thickness_mm](const std::array<Vector2d, 3>& p) {
     const int n = 8;
@@ -88,7 +88,7 @@ flow::Landing on_sphere(double radius_mm, double theta, double azimuth) {
           -std::tan(theta / 2) * outward, true, true};
 }
 
-/// Root mean square of the distances, on the film, from a one-dimensional solution.
+/// Root mean square of the distances on the film between a dip and the one-dimensional solution.
 double rms_from(const axisymmetric::Film& film, const flow::DipField& field, double radius_mm) {
   const axisymmetric::Dip exact(film, axisymmetric::sphere(radius_mm, 121 * kDegree), 2000);
   double square = 0;
@@ -122,7 +122,7 @@ TEST(SheetFlow, WithARingOfInkIsTheOneDimensionalSolution) {
   const SolvedDip dip = sphere_in_a_vat(40, 105, 121);
   const flow::DipField field = sheet_of(dip, mean_of(ringed_mm));
   EXPECT_LT(rms_from({105, ringed_mm, kBase_mm, 0}, field, 40), 0.02);
-  // The ring matters: the result without it differs.
+  // The ring matters: the result without the ring differs.
   const flow::DipField plain = sheet_of(dip, uniform);
   EXPECT_GT(rms_from({105, ringed_mm, kBase_mm, 0}, plain, 40), 0.1);
 }
@@ -147,7 +147,8 @@ TEST(SheetFlow, IsWithinItsToleranceOfTheSettledOne) {
   };
   constexpr double kTolerance_mm = 1e-4;
   const SheetFlow quick = solved(kTolerance_mm), settled = solved(0);
-  ASSERT_GE(quick.sweeps, 3) << "else no waterline settles before others";
+  ASSERT_GE(quick.sweeps, 3)
+      << "at least three sweeps are needed for some waterlines to settle before others";
   EXPECT_EQ(quick.unsettled_mm, 0);
   double apart_mm = 0;
   for (std::size_t k = 0; k < dip.field.fields.size(); ++k) {
@@ -200,7 +201,7 @@ TEST(SheetFlow, KeepsTheVolumeOfTheFilm) {
   }
   flow::DipField wetted = field;  // the film on the body at the last waterline
   wetted.depth_mm = field.immersion_mm[last];
-  flow::MapOptions fine;  // tiles may end up to a tile's width below the waterline
+  flow::MapOptions fine;  // the tiles may end one tile width below the waterline
   fine.least_edge_mm = 0.01;
   const auto map =
       flow::make_flow_map(dip.surface, dip.body, wetted, {}, fine, two_threads()).value();
@@ -268,8 +269,8 @@ TEST(SheetFlow, IsBitIdenticalForAnyNumberOfThreads) {
 }
 
 TEST(SheetFlow, OfASwollenFilmEqualsThatOfALargerFilm) {
-  // Printed on a circle of 60 mm, floating as one of 72 mm: the exact map of the larger film,
-  // scaled down for printing.
+  // Printed with a radius of 60 mm, the film floats with a radius of 72 mm. Its map is the exact
+  // map of the larger film, scaled down.
   pipeline::DipOptions options;
   options.outline = testing::film_of("circle:60");
   options.profile.swelling = {1.2, 1.2};

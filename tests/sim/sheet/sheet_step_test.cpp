@@ -25,7 +25,8 @@ using testing::Function;
 using testing::irregular_mesh;
 using testing::prescribed;
 
-constexpr double kViscosity_mpa_s = 1.82 * 0.02 / 3;  ///< the paper's Y at its time step
+/// Viscosity that corresponds to Young's modulus and the time step in the paper.
+constexpr double kViscosity_mpa_s = 1.82 * 0.02 / 3;
 constexpr double kDensity_kg_per_m3 = 1300;
 constexpr double kDipSpeed_mm_per_s = 5;
 const Vector2d kUnknown = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -35,7 +36,7 @@ struct Scene {
   waterline::Waterline line;
   FilmMesh mesh;
   std::vector<double> thickness_mm;
-  Velocities fixed;  ///< mm/s
+  Velocities fixed;  ///< velocities of the film's boundary, in mm/s
   Velocities quasistatic;
 };
 
@@ -53,7 +54,8 @@ Scene scene() {
     out.thickness_mm.push_back(x > 10 && x < 25 ? 0.7 : 0.5);
   }
   out.fixed = boundary_velocities(out.mesh, out.line.pulls);
-  for (Vector2d& u : out.fixed) u *= 1.2 * kDipSpeed_mm_per_s;  // theta = 100 degrees
+  // The pull at theta = 100 degrees is tan(50 degrees) = 1.2.
+  for (Vector2d& u : out.fixed) u *= 1.2 * kDipSpeed_mm_per_s;
   out.quasistatic = Sheet(out.mesh, 0, out.fixed).solve(out.thickness_mm).value();
   return out;
 }
@@ -80,17 +82,18 @@ double difference(const Velocities& a, const Velocities& b) {
   return most;
 }
 
-constexpr double kGrowth_per_s = 0.2;  ///< a dip of some seconds
+/// Relative growth of the velocities, as in a dip of some seconds.
+constexpr double kGrowth_per_s = 0.2;
 
-/// A step of a film without mass.
+/// Velocities after a step of a film without mass.
 Velocities light_step(const Scene& s, double step_s) {
   return sheet_step(s.mesh, s.thickness_mm, film_of(kViscosity_mpa_s, step_s, 0), step_s, {},
                     s.fixed)
       .value();
 }
 
-/// A step during which the film's boundary accelerates by the share kGrowth_per_s of its present
-/// velocity. Before the step, the film moved as if it had no mass.
+/// Velocities after a step in which the film's boundary accelerates by the share kGrowth_per_s of
+/// its present velocity. Before the step, the film moves as if it had no mass.
 Velocities heavy_step(const Scene& s, double step_s, double density_kg_per_m3) {
   return sheet_step(s.mesh, s.thickness_mm, film_of(kViscosity_mpa_s, step_s, density_kg_per_m3),
                     step_s, scaled(light_step(s, step_s), 1 - kGrowth_per_s * step_s), s.fixed)
@@ -120,15 +123,16 @@ TEST(SheetStep, DiffersFromTheQuasistaticSheetByAFloorDueToInertia) {
   const double lag = lag_mm_per_s(1e-3, kDensity_kg_per_m3);
   EXPECT_NEAR(lag_mm_per_s(1e-3, 2 * kDensity_kg_per_m3) / lag, 2, 0.05);
   EXPECT_NEAR(lag_mm_per_s(1e-2, kDensity_kg_per_m3) / lag, 1, 0.05);
-  // rho L^2 / mu over pi^2, with L about the width of the film.
+  // The response time is rho L^2 / (mu pi^2), with L about the width of the film.
   const double decay_s =
       kDensity_kg_per_m3 * 1e-12 * 50 * 50 / (kViscosity_mpa_s * std::pow(std::numbers::pi, 2));
   const double estimate = decay_s * kGrowth_per_s * largest(s.quasistatic);
   EXPECT_LT(lag, estimate);
   EXPECT_GT(lag, 0.01 * estimate);
-  // The paper's step is far above that floor; steps of microseconds are at it.
+  // With the paper's step, the error is far above the lag; with steps of microseconds, it equals
+  // the lag.
   EXPECT_GT(difference(heavy_step(s, 0.02, kDensity_kg_per_m3), s.quasistatic), 100 * lag);
-  // (With steps shorter than the response time, many are needed before the velocity lags.)
+  // With steps shorter than the response time, the lag needs many steps to develop.
   const double step_s = 2e-6;
   const StepFilm film = film_of(kViscosity_mpa_s, step_s, kDensity_kg_per_m3);
   Velocities u = scaled(s.quasistatic, 1 - kGrowth_per_s * 75 * step_s);
@@ -167,14 +171,14 @@ TEST(SheetStep, DependsOnlyOnTheRatioOfDensityToYoungsModulus) {
   const double speed = largest(s.quasistatic);
   const Velocities paper = step(1.82, 1300, 0.5);
   EXPECT_LT(difference(paper, step(18.2, 13000, 0.5)), 1e-9 * speed);
-  // Without mass, Young's modulus drops out; with mass, a softer film lags more.
+  // Without mass, Young's modulus has no effect; with mass, a softer film lags more.
   const Velocities light = step(1.82, 0, 0.5);
   EXPECT_LT(difference(light, step(0.001, 0, 0.5)), 1e-9 * speed);
   const double lag = difference(paper, light), soft_lag = difference(step(0.91, 1300, 0.5), light);
   EXPECT_GT(lag, 1e-5 * speed);
   EXPECT_NEAR(soft_lag / lag, 2, 0.1);
   EXPECT_NEAR(difference(step(1.82, 2600, 0.5), light) / lag, 2, 0.1);
-  // Poisson's ratio does not drop out: film that changes its volume moves differently.
+  // Poisson's ratio has an effect: film that changes its volume moves differently.
   EXPECT_GT(difference(light, step(1.82, 0, 0.3)), 1e-3 * speed);
 }
 
@@ -261,7 +265,7 @@ TEST(MembraneEnergy, IsInvariantUnderRotationOfAnySize) {
 
 TEST(MembraneEnergy, HasAPositiveHessianAsFallback) {
   const FilmMesh mesh = irregular_mesh();
-  ElementVector pressed;  // compressed to half its size
+  ElementVector pressed;  // displacements that compress the element to half its size
   const auto node = nodes_of(mesh, 0);
   for (int i = 0; i < 6; ++i) pressed.segment<2>(2 * i) = -0.5 * place_of(mesh, node[i]);
   const auto least = [&](Hessian kind) {
@@ -280,7 +284,7 @@ Velocities everywhere(const FilmMesh& mesh, const Function& f) {
   return out;
 }
 
-/// The velocities that deform the film by F within one step.
+/// The velocities that deform the film by the gradient F within one step.
 Function to(const Matrix2d& F, double step_s) {
   return [=](const Vector2d& p) { return Vector2d((F - Matrix2d::Identity()) * p / step_s); };
 }
@@ -322,7 +326,7 @@ TEST(SheetStep, ConservesTheMomentumOfAFreeFilm) {
   });
   const Velocities nothing_held(s.mesh.node_count(), kUnknown);
   const auto after = sheet_step(s.mesh, s.thickness_mm, film, step_s, before, nothing_held).value();
-  // Linear momentum, and angular momentum around the origin with the film's position after the
+  // Sums linear momentum, and angular momentum around the origin with the film's position after the
   // step.
   Vector2d linear_before(0, 0), linear_after(0, 0);
   double angular_before = 0, angular_after = 0, energy_before = 0, energy_after = 0;
@@ -360,7 +364,7 @@ TEST(SheetStep, ConvergesForVeryLongStepsOrReportsAnError) {
   for (const double step_s : {1e-6, 0.02, 0.5, 1.0}) {
     EXPECT_TRUE(step(step_s)) << step_s;
   }
-  const auto u = step(100);  // would push the film through itself
+  const auto u = step(100);  // this step would push the film through itself
   ASSERT_FALSE(u);
   EXPECT_EQ(u.error().code, Code::kInternal);
   EXPECT_NE(u.error().message.find("does not converge"), std::string::npos) << u.error().message;

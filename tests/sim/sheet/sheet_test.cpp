@@ -47,7 +47,8 @@ TEST(Sheet, RotatesAsAWholeForAnyThickness) {
             1e-9);
 }
 
-// div(2 (D + tr(D) I)) = Laplace(u) + 3 grad(div u), which is zero for these quadratics.
+// In a uniform film, the force is div(2 (D + tr(D) I)) = Laplace(u) + 3 grad(div u), which is zero
+// for these quadratics.
 TEST(Sheet, ReproducesItsQuadraticSolutions) {
   const FilmMesh mesh = irregular_mesh();
   const std::vector<double> thickness(mesh.triangles.size(), 1);
@@ -63,12 +64,13 @@ TEST(Sheet, ReproducesItsQuadraticSolutions) {
             1e-9);
 }
 
-// A strip drawn along x; its sides get their natural velocities: 4 h u' = const.
+// A strip that is drawn along x. Its boundary has the velocities of the exact solution
+// 4 h u' = const.
 TEST(Sheet, IsStretchedWhereItIsThin) {
   const FilmMesh mesh =
       mesh_film(film::parse_outline("80x20").value(), testing::line_round({}), {}).value();
   const auto thickness_at = [](double x) { return 1 + 0.5 * std::tanh(x / 10); };
-  // u = integral of dx / h, by Simpson's rule.
+  // u is the integral of dx / h, computed by Simpson's rule.
   const auto drawn = [&](double x) {
     const int n = 200;
     const double step = (x + 40) / n;

@@ -20,24 +20,24 @@ namespace hydroprint::testing {
                                  const std::function<bool(int i, int j, int k)>& is_solid);
 
 /// A profile rotated around the z axis, closed, facing outward.
-/// @param profile  (radius, height), solid on its left; from axis to axis (its ends then have
-///                 radius 0), or a closed curve that stays off the axis
+/// @param profile  points (radius, height) with the solid on the left; either from axis to axis
+///                 (both ends then have radius 0), or a closed curve that stays off the axis
 [[nodiscard]] mesh::Model turned(const std::vector<Eigen::Vector2d>& profile, int segments);
 
-/// A cone on its tip, its side at `slope_rad` to the water, closed by a level top.
+/// A cone on its tip. Its side rises at `slope_rad` from the water, and its top is level.
 [[nodiscard]] mesh::Model cone(double slope_rad, double height_mm, int segments);
 
-/// A flat-bottomed cylinder, rim subdivided evenly.
+/// A cylinder with a flat bottom. Its rim is divided evenly into `segments`.
 [[nodiscard]] mesh::Model cylinder(double radius_mm, double height_mm, int segments);
 
-/// A cup: inner and outer radius, height, thickness of its bottom; mouth up or down.
+/// A cup with these inner and outer radii, height and thickness of its bottom, mouth up or down.
 [[nodiscard]] mesh::Model cup(double inner_mm, double outer_mm, double height_mm, double bottom_mm,
                               bool mouth_up, int segments);
 
-/// A ring with a round section lying on the water.
+/// A ring with a round cross-section that lies on the water.
 [[nodiscard]] mesh::Model torus(double ring_mm, double tube_mm, int segments, int around);
 
-/// A ridge along y of the given half-length, its two sides at `slope_rad` to the water.
+/// A ridge along y of the given half-length. Its two sides rise at `slope_rad` from the water.
 [[nodiscard]] mesh::Model wedge(double slope_rad, double height_mm, double half_length_mm);
 
 /// Several models as one, with separate shells.
@@ -48,10 +48,10 @@ namespace hydroprint::testing {
 /// Turns every face over.
 [[nodiscard]] mesh::Model inside_out(mesh::Model model);
 
-/// The surface of a model; the model must have one.
+/// The surface of a model, which must be valid.
 [[nodiscard]] mesh::Surface surface_of(const mesh::Model& model, double max_edge_mm = 2);
 
-/// The surface placed on the water according to its own coordinates (x and y unchanged).
+/// A surface as a body whose lowest point touches the water; x and y are unchanged.
 [[nodiscard]] waterline::Body body_of(const mesh::Surface& surface);
 [[nodiscard]] waterline::Body body_of(const mesh::Model& model, double max_edge_mm = 2);
 

@@ -15,13 +15,13 @@ namespace hydroprint::testing {
 /// Settings of a test's dip: like the pipeline, but with access to every stage.
 struct DipSetting {
   film::Outline film;
-  double depth_mm = 1e9;  ///< limited to the body's height
+  double depth_mm = 1e9;  ///< depth of the dip; at most the body's height is used
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
   waterline::Motion motion;
   double max_edge_mm = 2;
 
-  /// Multiplies every length of the discretisation.
+  /// Multiplies every length of the discretisation by `factor`.
   void coarsen(double factor);
 };
 
@@ -31,10 +31,11 @@ struct SolvedDip {
   flow::DipField field;
 };
 
-/// Waterlines, film meshes and velocities of a dip of the model at its own coordinates.
+/// Waterlines, film meshes and velocities of a dip of the model, whose x and y are film
+/// coordinates.
 [[nodiscard]] SolvedDip solve_dip(const mesh::Model& model, const DipSetting& setting);
 
-/// A regular polygon with the area of a circle: a circular film with few corners.
+/// A circular film with few corners: a regular polygon with the area of the circle.
 [[nodiscard]] film::Outline round_film(double radius_mm, int corners = 120, double turn_rad = 0);
 
 [[nodiscard]] film::Outline film_of(const std::string& text);

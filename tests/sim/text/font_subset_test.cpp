@@ -20,7 +20,7 @@ std::set<std::uint32_t> glyphs_of(std::string_view text) {
   return out;
 }
 
-/// Width and height of a glyph, its advance and the number of its points.
+/// Width, height, advance and number of points of a glyph.
 std::array<long, 4> shape_of(const std::string& file, std::uint32_t glyph) {
   FT_Library library = nullptr;
   FT_Face face = nullptr;

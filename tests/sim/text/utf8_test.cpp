@@ -20,7 +20,7 @@ TEST(Utf8, EachMalformedSequenceBecomesOneReplacement) {
   EXPECT_EQ(decode_utf8("\xE0\x80\xAF"), U"\uFFFD\uFFFD\uFFFD");            // overlong
   EXPECT_EQ(decode_utf8("\xED\xA0\x80"), U"\uFFFD\uFFFD\uFFFD");            // surrogate
   EXPECT_EQ(decode_utf8("\xF4\x90\x80\x80"), U"\uFFFD\uFFFD\uFFFD\uFFFD");  // above U+10FFFF
-  EXPECT_EQ(decode_utf8("\xE6\xBC|\xF0\x9F\xA6"), U"\uFFFD|\uFFFD");        // cut short
+  EXPECT_EQ(decode_utf8("\xE6\xBC|\xF0\x9F\xA6"), U"\uFFFD|\uFFFD");        // truncated
 }
 
 TEST(Utf8, ControlCharactersBecomeReplacements) {

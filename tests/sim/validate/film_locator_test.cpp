@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A square of 10 mm, standing upright; the film on it is at (x, z), times two.
+/// An upright square of 10 mm. The film on a point (x, z) of the square is from (2 x, 2 z).
 mesh::Surface upright_square() {
   mesh::Surface surface;
   surface.points = {{0, 0, 0}, {10, 0, 0}, {10, 0, 10}, {0, 0, 10}};

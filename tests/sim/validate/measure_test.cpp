@@ -33,7 +33,7 @@ TEST(LandingErrors, AreDistancesOnTheObject) {
   pipeline::Dip plan;
   plan.surface.points = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 10, 0}};
   plan.surface.triangles = {{0, 1, 2}};
-  flow::MappedTriangle tile;  // film stretched to twice its length along x
+  flow::MappedTriangle tile;  // a tile whose film is stretched to twice its length along x
   tile.film_mm = {{{0, 0}, {5, 0}, {0, 10}}};
   for (int i = 0; i < 3; ++i) tile.barycentric[i] = Eigen::Vector3f::Unit(i);
   pipeline::Dip truth = plan;

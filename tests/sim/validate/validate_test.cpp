@@ -59,13 +59,13 @@ class QuickReport : public ::testing::Test {
   static fs::path out() { return folder_->path() / "out"; }
   static json report() { return json::parse(content(out() / "report.json")); }
   static double value(const std::string& name) {
-    const json all = report();  // must outlive the loop
+    const json all = report();  // a named copy, because a temporary would not outlive the loop
     for (const json& experiment : all.at("experiments")) {
       for (const json& figure : experiment.at("figures")) {
         if (figure.at("name") == name) return figure.at("value");
       }
     }
-    ADD_FAILURE() << "no figure " << name;
+    ADD_FAILURE() << "the report has no figure " << name;
     return std::nan("");
   }
 
@@ -142,7 +142,7 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
     EXPECT_TRUE(link.starts_with("#") ? ids.contains(link.substr(1)) : fs::exists(out() / link))
         << link;
   }
-  const json all = report();  // must outlive the loop
+  const json all = report();  // a named copy, because a temporary would not outlive the loop
   for (const json& experiment : all.at("experiments")) {
     EXPECT_NE(page.find("<h2>" + experiment.at("title").get<std::string>() + "</h2>"),
               std::string::npos);
@@ -151,7 +151,7 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
 
 TEST_F(QuickReport, CountsPassedFigures) {
   int passed = 0, failed = 0;
-  const json all = report();  // must outlive the loop
+  const json all = report();  // a named copy, because a temporary would not outlive the loop
   for (const json& experiment : all.at("experiments")) {
     for (const json& figure : experiment.at("figures")) {
       if (!figure.contains("limit")) continue;
@@ -172,17 +172,18 @@ TEST_F(QuickReport, CountsPassedFigures) {
 }
 
 TEST_F(QuickReport, FilmIsUndisplacedAtFirstContact) {
-  // The landing point there varies by the same amount as the drawn errors.
+  // At first contact, landing points vary by the same amount as the drawn errors.
   EXPECT_NEAR(value("spread_at_contact_ratio"), 1, 0.01);
   EXPECT_NEAR(value("sphere_stretch_at_contact"), 1, 0.01);
-  // Four standard deviations of 0.3 mm, 0.3 degrees at 60 mm and 0.5 mm, in two directions.
+  // At most four standard deviations of the errors, which are 0.3 mm, 0.3 degrees at a distance of
+  // 60 mm, and 0.5 mm, in two directions.
   EXPECT_GT(value("spread_at_contact_mm"), 0.3);
   EXPECT_LT(value("spread_at_contact_mm"), 2);
 }
 
 TEST_F(QuickReport, TheReferenceIsCloserToTheExactSolution) {
-  // Second order: 0.6 times the lengths leaves 0.36 of the error, plus the error of the mesh of
-  // triangles that represents the sphere.
+  // The error is of second order: 0.6 times the lengths leave 0.36 of it. The error of the
+  // triangles that represent the sphere remains.
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.6 * value("exact_sphere_usual_max_mm"));
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.2);
   EXPECT_GT(value("sphere_far_pole_max_mm"), value("sphere_to_equator_max_mm"));
@@ -202,7 +203,7 @@ TEST_F(QuickReport, BowlIsRecognisedAsUnprintable) {
   EXPECT_EQ(value("mouth_down_recognised"), 1);
   EXPECT_EQ(value("upright_recognised"), 1);
   EXPECT_GT(value("floor_stretch"), 3);
-  // Coarse steps miss some of the growth at the rim.
+  // The coarse steps miss a part of the growth at the rim.
   EXPECT_NEAR(value("floor_stretch_to_exact"), 1, 0.1);
 }
 
@@ -248,7 +249,7 @@ TEST_F(QuickReport, IsReplacedByTheNextRunWithTheRequestedExperiments) {
   }
   EXPECT_GT(wanted.size(), 2U);
   EXPECT_EQ(names_in(again), wanted);
-  // Experiments share bodies and films, but none changes the input of another.
+  // Experiments share bodies and films, but no experiment may change the input of another.
   const auto models_of = [](const fs::path& in) {
     const json all = json::parse(content(in / "report.json"));
     for (const json& e : all.at("experiments")) {

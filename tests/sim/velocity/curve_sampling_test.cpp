@@ -18,7 +18,7 @@ void expect_follows(const Curve& curve, double spacing, double tolerance) {
   ASSERT_GE(loop.size(), 3U);
   for (std::size_t i = 0; i < loop.size(); ++i) {
     EXPECT_LE((loop[(i + 1) % loop.size()] - loop[i]).norm(), spacing * 1.001);
-    EXPECT_LT(testing::distance_to(curve, loop[i]), 1e-9) << "off the curve";
+    EXPECT_LT(testing::distance_to(curve, loop[i]), 1e-9) << "a sampled point is not on the curve";
   }
   for (const Vector2d& p : curve) EXPECT_LT(testing::distance_to(loop, p), tolerance + 1e-9);
   EXPECT_GT(waterline::signed_area(loop) * waterline::signed_area(curve), 0);

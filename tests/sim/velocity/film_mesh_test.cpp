@@ -47,7 +47,7 @@ double least_angle_deg(const FilmMesh& mesh) {
   return least;
 }
 
-/// Checks the film around solids that lie side by side: area, orientation, edges and velocities.
+/// Checks the mesh of the film around separate solids: area, orientation, edges and velocities.
 void expect_sound(const film::Outline& film, const std::vector<Curve>& solids,
                   double tolerance_mm = 0.011) {
   const waterline::Waterline line = testing::line_round(solids);
@@ -218,7 +218,7 @@ TEST(FilmMesh, LeavesOutRegionsWithoutFilm) {
 }
 
 TEST(FilmMesh, NearlyTouchingCurvesAreRefusedBeforeTheMeshGrowsTooLarge) {
-  // The edges along a gap are divided until they are about as short as it is wide.
+  // The edges along a gap are divided until they are about as short as the gap is wide.
   const film::Outline film = outline_of("100x100");
   const auto solids = [](double gap_mm) {
     const double x = 10 + gap_mm;

@@ -42,7 +42,8 @@ inline Curve bean(const Eigen::Vector2d& centre_mm, double radius_mm) {
   });
 }
 
-/// Solids side by side in the film, each pulling with unit speed towards its middle.
+/// The waterline of separate solids in the film, each of which pulls with unit speed towards its
+/// middle.
 inline waterline::Waterline line_round(const std::vector<Curve>& solids) {
   waterline::Waterline line;
   line.immersion_mm = 1;
@@ -88,7 +89,7 @@ inline film::Outline outline_of(const std::string& text) {
   return film::parse_outline(text).value();
 }
 
-/// A function's values at the nodes on the film's edges, NaN inside.
+/// A function's values at the nodes on the film's edges; NaN at all other nodes.
 inline std::vector<Eigen::Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
   std::vector<Eigen::Vector2d> fixed(
       mesh.node_count(), Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -101,7 +102,7 @@ inline std::vector<Eigen::Vector2d> prescribed(const FilmMesh& mesh, const Funct
   return fixed;
 }
 
-/// A film with a bean and a quadrilateral in it; no two triangles are alike.
+/// The mesh of a film with a bean and a quadrilateral in it. No two triangles are alike.
 inline FilmMesh irregular_mesh() {
   return mesh_film(outline_of("100x80"),
                    line_round({bean({-12, 5}, 15), {{15, -20}, {30, -22}, {33, -5}, {20, -12}}}),

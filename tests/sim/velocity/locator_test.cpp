@@ -27,7 +27,7 @@ FilmMesh mesh_of(const std::string& film) {
 
 double cross(const Vector2d& u, const Vector2d& v) { return u.x() * v.y() - u.y() * v.x(); }
 
-/// Distance from a point to one triangle, zero inside.
+/// Distance from a point to one triangle; 0 inside.
 double distance_to(const FilmMesh& mesh, const Eigen::Vector3i& t, const Vector2d& p) {
   std::vector<Vector2d> corners;
   for (const int v : t) corners.push_back(mesh.vertices_mm[v]);
@@ -112,7 +112,7 @@ TEST(VelocityField, InterpolatesQuadraticsExactly) {
       EXPECT_LT((u - f(p)).norm(), 1e-9);
       ++tested;
     } else {
-      EXPECT_EQ(u, Vector2d(7, 7)) << "touched though there is no film";
+      EXPECT_EQ(u, Vector2d(7, 7)) << "the result must not change where there is no film";
     }
   }
   EXPECT_GT(tested, 1000);

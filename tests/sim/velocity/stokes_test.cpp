@@ -122,7 +122,8 @@ TEST(Stokes, ObeysTheMaximumPrinciple) {
 }
 
 TEST(Stokes, OfACylinderIsTheRadialSolution) {
-  // u_r = -(c / (1 - c^2)) (Rv / r - r / Rv), c = a / Rv, for unit pull at r = a.
+  // For unit pull at r = a, the solution is u_r = -(c / (1 - c^2)) (Rv / r - r / Rv) with c = a /
+  // Rv.
   const double a = 20, vat = 60, c = a / vat;
   const FilmMesh mesh = mesh_film(outline_of("circle:60"),
                                   testing::line_round({testing::circle({0, 0}, a, 1500)}), {})

@@ -80,7 +80,7 @@ TEST(Schedule, EndsAtTheRequestedDepth) {
 }
 
 TEST(Schedule, TakesBothSidesOfAShelf) {
-  // A box 10 mm high on a smaller one of 10 mm: a level face looks down at 10 mm.
+  // A box 10 mm high on a smaller box 10 mm high, so that a level face looks down at 10 mm.
   const Body body =
       testing::body_of(testing::blocks({-20, -10, 10, 20}, {-10, 10}, {0, 10, 20},
                                        [](int i, int, int k) { return k == 1 || i == 1; }));

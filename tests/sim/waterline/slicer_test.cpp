@@ -36,7 +36,7 @@ double area_of(const CrossSection& section) {
   return area;
 }
 
-/// A quarter-open pipe: the wall of a half cylinder around the z axis, on the side of +x.
+/// Half of a pipe without thickness: the half of a cylinder around the z axis on the side of +x.
 mesh::Model half_pipe(double radius_mm, double height_mm, int segments) {
   mesh::Model model;
   model.path = "half pipe";
@@ -56,15 +56,16 @@ mesh::Model half_pipe(double radius_mm, double height_mm, int segments) {
 TEST(Slicer, CutOfABoxIsItsOutlineWithTheSolidOnTheLeft) {
   const Body body = testing::body_of(testing::box({-3, -5, 0}, {7, 5, 8}));
   const Slicer slicer(body);
-  for (const double z : {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {  // also at the levels of vertices
+  // Some cuts are at the heights of vertices.
+  for (const double z : {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {
     const auto contours = slicer.cut(z);
     ASSERT_EQ(contours.size(), 1U) << z;
     EXPECT_TRUE(is_closed(contours[0]));
     EXPECT_NEAR(area_of(contours[0]), 100, 1e-9);
     for (const Segment& s : contours[0]) {
       for (const auto& [p, u] : {std::pair{s.a_mm, s.pull_a}, std::pair{s.b_mm, s.pull_b}}) {
-        EXPECT_NEAR(u.norm(), 1, 1e-12);  // tan 45 degrees
-        EXPECT_GT(u.dot(Vector2d(2, 0) - p), 0) << "away from the object";
+        EXPECT_NEAR(u.norm(), 1, 1e-12);  // the pull of a vertical wall is tan 45 degrees
+        EXPECT_GT(u.dot(Vector2d(2, 0) - p), 0) << "the pull must point towards the object";
       }
     }
   }

@@ -100,7 +100,8 @@ TEST(Waterlines, APostInACupMouthUpBoundsNoFilm) {
 }
 
 TEST(Waterlines, ACavityAboveAClosedCeilingStaysDry) {
-  // Layers of cells from below: open at the bottom, a floor, open at the top.
+  // Three layers of cells: a frame that is open at the bottom, a floor, and a frame that is open at
+  // the top.
   const Waterlines w =
       taken(testing::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 10, 15, 25},
                             [](int i, int j, int k) { return k == 1 || i != 1 || j != 1; }));
@@ -110,7 +111,7 @@ TEST(Waterlines, ACavityAboveAClosedCeilingStaysDry) {
 }
 
 TEST(Waterlines, FilmIsTrappedWhenARingClosesAroundIt) {
-  // A ring with a gap in its side up to 12 mm.
+  // A ring with a gap in its side up to 12 mm height.
   const Waterlines w = taken(
       testing::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 12, 25}, [](int i, int j, int k) {
         if (i == 1 && j == 1) return false;
@@ -121,7 +122,7 @@ TEST(Waterlines, FilmIsTrappedWhenARingClosesAroundIt) {
 }
 
 TEST(Waterlines, ADryCavityStaysDryWhileItNarrowsAndWidens) {
-  // A vase mouth up, its inside from 15 mm wide to 8 and back.
+  // A vase with its mouth up. Its inner radius goes from 15 mm to 8 mm and back.
   const Waterlines w =
       taken(testing::turned({{0, 0}, {25, 0}, {25, 40}, {15, 40}, {8, 22}, {15, 5}, {0, 5}}, 48));
   for (const Waterline& line : w.lines) {
@@ -130,7 +131,7 @@ TEST(Waterlines, ADryCavityStaysDryWhileItNarrowsAndWidens) {
 }
 
 TEST(Waterlines, AreCloserWhereContoursMerge) {
-  // Two overlapping spheres, which share one contour from some depth on.
+  // Two overlapping spheres, whose contours merge at some depth.
   const double radius = 20, apart = 16;
   const Waterlines w =
       taken(testing::together({testing::moved(sample::icosphere(radius, 5), {apart, 0, 0}),
@@ -140,7 +141,7 @@ TEST(Waterlines, AreCloserWhereContoursMerge) {
   bool found = false;
   for (std::size_t i = 1; i < w.lines.size(); ++i) {
     if (loops(w.lines[i - 1], false, true) == 2 && loops(w.lines[i], false, true) == 1) {
-      // No film fits between them when the gap is narrower than a slit (0.3 mm).
+      // No film fits between the spheres when their gap is narrower than a slit (0.3 mm).
       EXPECT_LE(w.lines[i].immersion_mm, merge_mm + 0.02);
       EXPECT_GE(w.lines[i].immersion_mm, slit_mm - 0.02);
       EXPECT_LE(w.lines[i].immersion_mm - w.lines[i - 1].immersion_mm, 0.0101);
@@ -152,7 +153,7 @@ TEST(Waterlines, AreCloserWhereContoursMerge) {
 
 TEST(Waterlines, TheDipEndsWhereTheWaterlineReachesTheFilm) {
   const double slope = std::numbers::pi / 4;
-  // A ridge along y: its waterline is at x = +-immersion.
+  // A ridge along y with slopes of 45 degrees, so its waterline is at x = +-immersion.
   const Waterlines w = taken(testing::wedge(slope, 60, 30), "80x120");
   EXPECT_TRUE(w.stopped_at_edge);
   EXPECT_NEAR(w.depth_mm, 40, 0.06);  // the edge counts as reached slightly early

@@ -8,7 +8,7 @@
 
 namespace hydroprint::worker {
 
-/// surface_map.ply: x, y, z, film_x, film_y, contact_time, stretch per vertex.
+/// Contents of surface_map.ply. A vertex has x, y, z, film_x, film_y, contact_time and stretch.
 struct Ply {
   std::string header;
   std::vector<std::array<double, 7>> vertices;

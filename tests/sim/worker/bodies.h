@@ -7,7 +7,8 @@
 
 namespace hydroprint::worker {
 
-/// A closed sphere with texture coordinates, as an OBJ file: `rings` bands of `2 rings` faces.
+/// A closed sphere with texture coordinates, as an OBJ file: `rings` bands, each with twice as many
+/// faces as there are bands.
 inline std::string sphere_obj(double radius_mm, int rings) {
   std::ostringstream vertices, uvs, faces;
   const int around = 2 * rings;

@@ -29,7 +29,7 @@ TEST_F(Worker, SimulateWritesTheArtifactsOfTheContract) {
   EXPECT_EQ(names_in(out()),
             (std::set<std::string>{"film.png", "film_map.exr", "predicted.png", "report.json",
                                    "stretch.png", "surface_map.ply", "wrinkles.png"}))
-      << "the sphere gathers the film at its top, so there is a picture of that, too";
+      << "the film gathers at the top of the sphere, so there must be wrinkles.png, too";
   EXPECT_NE(ended.out.find(out()), std::string::npos);
   EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"out", "sphere.obj", "texture.png"}));
 }
@@ -61,7 +61,7 @@ TEST_F(Worker, AnEmbeddedPictureIsPrintedAndIsNotASeparateInput) {
   const auto& texels = film->image.texels;
   EXPECT_TRUE(std::any_of(texels.begin(), texels.end(), [](const image::Texel& t) {
     return t.r != t.g || t.g != t.b;
-  })) << "the picture's colours";
+  })) << "the film image must have the colours of the embedded texture";
 }
 
 TEST_F(Worker, MapOnlyWritesTheMapAndTheReport) {
@@ -99,11 +99,11 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
       }
     }
     if (under_water) {
-      EXPECT_GE(vertex[6], 0.99) << "film is never squeezed both ways";
-      EXPECT_NEAR(vertex[5], (expected.z() + 12) / 5, 0.02) << "5 mm/s";
+      EXPECT_GE(vertex[6], 0.99) << "film must not be compressed in both directions";
+      EXPECT_NEAR(vertex[5], (expected.z() + 12) / 5, 0.02) << "the dip speed is 5 mm/s";
     }
   }
-  EXPECT_GT(ply.vertices.size(), index) << "3 mm faces are subdivided";
+  EXPECT_GT(ply.vertices.size(), index) << "faces of 3 mm must be subdivided";
   for (const auto& face : ply.faces) {
     for (const std::int32_t corner : face) {
       ASSERT_GE(corner, 0);
@@ -143,7 +143,8 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   EXPECT_GT(report["steps"], 5);
   EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
   EXPECT_NEAR(report["depth_mm"].get<double>(), 10, 1e-9);
-  EXPECT_NEAR(report["coverage"].get<double>(), 10.0 / 24, 0.05) << "Archimedes' hat box";
+  EXPECT_NEAR(report["coverage"].get<double>(), 10.0 / 24, 0.05)
+      << "the wetted share of a sphere equals the immersed share of its height";
   EXPECT_GE(report["stretch"]["max"], report["stretch"]["p95"]);
   EXPECT_GE(report["stretch"]["p95"], report["stretch"]["p50"]);
   double seconds = 0;
@@ -172,7 +173,7 @@ TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {
       if (threads == "1") first[name] = bytes;
       EXPECT_TRUE(first[name] == bytes) << name;
     }
-    // Files that contain the time of writing would differ.
+    // Waits, so that files that contain the time of writing would differ.
     if (threads == "1") std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   }
   EXPECT_GE(first.size(), 5U);

@@ -35,7 +35,7 @@ TEST_F(Worker, ValuesOutOfRangeAreBadInput) {
     SCOPED_TRACE(flags[1]);
     expect_refusal(3, simulate(flags), {flags[0] + ": "});
   }
-  // Each is in range, but the combination is not.
+  // Each value is in range, but the combination is not.
   expect_refusal(3, simulate({"--film", "2000x2000", "--dpi", "2400"}), {"dpi"});
 }
 
@@ -61,7 +61,8 @@ TEST_F(Worker, AFileBeyondTheLimitIsReportedAndNothingStays) {
 TEST_F(Worker, AFullFileSystemIsReportedAndNothingStays) {
   const fs::path disk = folder.path() / "disk";
   fs::create_directory(disk);
-  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=16k") != 0) GTEST_SKIP() << "needs root";
+  if (::mount("none", disk.c_str(), "tmpfs", 0, "size=16k") != 0)
+    GTEST_SKIP() << "needs root, to mount a small disk";
   Arguments command = simulate({"--texture", path("texture.png")});
   *std::next(std::find(command.begin(), command.end(), "--out")) = disk / "out";
   expect_refusal(3, command, {"disk/out", "disk is full"});

@@ -1,4 +1,4 @@
-// Invalid models and textures: one line that names the file, and nothing left behind.
+// Invalid models and textures cause a one-line error that names the file, and leave no files.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::string big_endian(std::uint32_t value) {
   return bytes;
 }
 
-/// The beginning of a PNG that announces a size, with a chunk of useless data.
+/// The beginning of a PNG whose header states a size, with a chunk of useless data.
 std::string png_announcing(std::uint32_t width, std::uint32_t height) {
   const auto chunk = [](const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data +
@@ -140,7 +140,7 @@ TEST_F(Worker, MissingPartsOfAModelAreRefusedByName) {
                std::string("mtllib notexture.mtl\n") + tetrahedron + "usemtl skin\n" + faces);
   expect_refusal(3, simulate({"--mesh", path("notexture.obj")}, false), {"absent skin.png"});
 
-  // A texture on the command line replaces all of them.
+  // A texture on the command line replaces all materials and textures of the model.
   const Ended ended = testing::run(
       simulate({"--mesh", path("nomtl.obj"), "--texture", path("texture.png")}, false));
   EXPECT_EQ(ended.status, 0) << ended.err;

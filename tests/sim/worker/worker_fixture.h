@@ -21,15 +21,15 @@ using Arguments = std::vector<std::string>;
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kAddressSpaceIsOurs = false;  // the sanitizer itself maps terabytes
-// Neither its reports nor libraries' output may be lost.
+// With the sanitizer, the program lets libraries write to stderr, so that no report is lost.
 constexpr bool kStderrIsOurs = false;
 #else
 constexpr bool kAddressSpaceIsOurs = true;
 constexpr bool kStderrIsOurs = true;
 #endif
 
-/// The program from a user's point of view: command line in; artifact folder, one line and exit
-/// status out. Runs in a folder with a small textured sphere.
+/// The program from a user's point of view: a command line gives an artifact folder, one line and
+/// an exit status. Runs in a folder with a small textured sphere.
 class Worker : public ::testing::Test {
  protected:
   void SetUp() override;
@@ -43,8 +43,8 @@ class Worker : public ::testing::Test {
   /// The command line of predict with film.png on the sphere with a small film.
   [[nodiscard]] Arguments predict(const Arguments& more) const;
 
-  /// Runs the program and checks that it fails as promised: this status, one line with all of the
-  /// words, nothing on stdout, and an unchanged folder.
+  /// Runs the program and expects a failure as documented: this exit status, one line on stderr
+  /// with all of the words, nothing on stdout, and an unchanged folder.
   void expect_refusal(int status, const Arguments& command, const Arguments& words,
                       const ProcessOptions& options = {}) const;
 

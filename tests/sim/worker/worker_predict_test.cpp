@@ -1,4 +1,4 @@
-// The opposite direction: from a film image to the landed colours.
+// The verb predict: from a film image to the landed colours.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,8 @@ TEST_F(Worker, PredictedQuartersOfTheFilmLandOnTheirSideOfTheSphere) {
   int seen = 0;
   for (const auto& [xyz, colour] : read_landed(out() + "/landed.ply")) {
     if (xyz[2] > 0.01) {
-      EXPECT_EQ(colour, (std::array<std::uint8_t, 4>{255, 255, 255, 0})) << "above the water";
+      EXPECT_EQ(colour, (std::array<std::uint8_t, 4>{255, 255, 255, 0}))
+          << "a point above the water must stay white and unreached";
       continue;
     }
     // Skips vertices near the borders of the quarters, where the film's motion shifts the colours.

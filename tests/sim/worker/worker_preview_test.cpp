@@ -1,4 +1,4 @@
-// The verb that keeps running: requests in, answers out, as used by a page on which an object is
+// The verb preview, which keeps running and answers requests. A page uses it while an object is
 // turned.
 
 #include <fcntl.h>
@@ -40,10 +40,10 @@ std::array<int, 2> make_pipe() {
 
 struct Answer {
   nlohmann::json head;
-  std::vector<float> floats;  ///< its bytes
+  std::vector<float> floats;  ///< the bytes that follow the head
 };
 
-/// The program and its client.
+/// The running program and its client.
 class Session {
  public:
   explicit Session(const Arguments& arguments, std::array<int, 2> in = make_pipe(),
@@ -133,19 +133,22 @@ TEST_F(Preview, SendsTheModelFirstAndThenItsLandingPoints) {
   const Answer dip = session.answer_to(request);
   EXPECT_EQ(dip.head.at("id"), 7);
   EXPECT_NEAR(dip.head.at("depth_mm").get<double>(), 12, 1e-9);
-  EXPECT_GE(dip.head.at("coverage").get<double>(), 0.5) << "the lower half";
-  EXPECT_LT(dip.head.at("coverage").get<double>(), 0.6) << "and the faces that it wets in part";
+  EXPECT_GE(dip.head.at("coverage").get<double>(), 0.5)
+      << "the lower half of the sphere must be covered";
+  EXPECT_LT(dip.head.at("coverage").get<double>(), 0.6)
+      << "only faces at the waterline may be covered in addition";
   ASSERT_EQ(dip.floats.size(), 4 * vertices);
   int below = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
     const float z_mm = model.floats[3 * v + 2];
     const float* const at = &dip.floats[4 * v];
     if (z_mm > 0.01) {
-      EXPECT_TRUE(std::isnan(at[0]) && std::isnan(at[3])) << "no film above the water";
+      EXPECT_TRUE(std::isnan(at[0]) && std::isnan(at[3]))
+          << "there must be no film above the water";
     } else if (z_mm < -0.01) {
       ++below;
       EXPECT_TRUE(std::isfinite(at[0]) && std::isfinite(at[1])) << v;
-      EXPECT_NEAR(at[2], (z_mm + 12) / 5, 0.05) << "reached by the water at 5 mm/s";
+      EXPECT_NEAR(at[2], (z_mm + 12) / 5, 0.05) << "the dip speed is 5 mm/s";
       EXPECT_GT(at[3], 0.9) << v;
     }
   }
@@ -181,7 +184,7 @@ TEST_F(Preview, ANewerRequestCancelsThePreviousOne) {
   int done = 0;
   for (int id = 1; id <= kMany; ++id) {
     const Answer answer = session.next();
-    ASSERT_EQ(answer.head.at("id"), id) << "each is answered, in their order";
+    ASSERT_EQ(answer.head.at("id"), id) << "every request must be answered, in order";
     if (answer.head.contains("error")) {
       EXPECT_EQ(answer.head.at("error").at("reason"), "SUPERSEDED");
     } else {
@@ -191,7 +194,7 @@ TEST_F(Preview, ANewerRequestCancelsThePreviousOne) {
       EXPECT_FALSE(answer.head.contains("error")) << answer.head;
     }
   }
-  EXPECT_LT(done, kMany) << "not all were computed";
+  EXPECT_LT(done, kMany) << "some requests must be superseded";
 }
 
 TEST_F(Preview, RefusesInvalidRequestsAndContinues) {
@@ -216,7 +219,7 @@ TEST_F(Preview, RefusesInvalidRequestsAndContinues) {
   refused(R"({"id":3,"depth_mm":-1})", 3);
   refused(R"({"id":4,"depth_mm":1e999})", -1);
   refused(R"({"id":5,"pose":{"rotation_wxyz":[0,0,0,0]}})", 5);
-  refused(R"({"id":6,"pose":{"translation_mm":[400,0,0]}})", 6);  // next to the film
+  refused(R"({"id":6,"pose":{"translation_mm":[400,0,0]}})", 6);  // the object is beside the film
   refused(R"({"id":7,"colour":"red"})", 7);
   EXPECT_FALSE(session.answer_to(turned(8, 1)).head.contains("error"));
 }

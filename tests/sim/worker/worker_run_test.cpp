@@ -51,7 +51,7 @@ TEST_F(Worker, AStalledOrClosedProgressReaderHasNoEffect) {
   ASSERT_EQ(::pipe2(pipe_ends.data(), O_CLOEXEC), 0);
   ProcessOptions options;
   options.inherited = {{5, pipe_ends[1]}};
-  // Nobody reads; the pipe is full from the start.
+  // Nobody reads from the pipe, which is full from the start.
   ASSERT_EQ(::fcntl(pipe_ends[1], F_SETPIPE_SZ, 4096), 4096);
   const std::string filling(4096, ' ');
   ASSERT_EQ(::write(pipe_ends[1], filling.data(), filling.size()), 4096);
@@ -68,7 +68,7 @@ TEST_F(Worker, AClosedStdoutIsHarmless) {
   const Ended ended = testing::run(simulate({"--json"}), options);
   EXPECT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["verb"], "simulate") << "the summary went into no artifact";
+  EXPECT_EQ(report["verb"], "simulate") << "the summary must not be written into an artifact";
 }
 
 /// A long run that was started and has reported progress.

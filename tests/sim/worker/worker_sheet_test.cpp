@@ -1,4 +1,4 @@
-// The sheet and its ink.
+// The sheet model, with the passes that determine its ink.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST_F(Worker, StokesIgnoresInkAndWarnsThatItIgnoresDrag) {
                           [](const auto& warning) { return warning["code"] == "drag_ignored"; }));
 }
 
-/// The maps of a dip to the equator through a film with ink on it.
+/// Maps of a dip to the equator through a film with ink.
 class Inertia : public Worker {
  protected:
   [[nodiscard]] Arguments dip(Arguments more) const {
@@ -78,7 +78,7 @@ class Inertia : public Worker {
   }
 };
 
-/// Largest distance on the film between the points that two maps bring to a vertex.
+/// Largest distance between the film points of a vertex in two maps.
 double apart_mm(const Ply& a, const Ply& b) {
   EXPECT_EQ(a.vertices.size(), b.vertices.size());
   double most = 0;
@@ -98,11 +98,12 @@ TEST_F(Inertia, MatchesTheQuasistaticMapOnlyIfVolumeIsKept) {
   const Ply quasistatic = map_of({});
   const Ply inertial = map_of({"--inertia"});
   EXPECT_TRUE(nlohmann::json::parse(content(out() + "/report.json"))["parameters"]["inertia"]);
-  // A step of 0.01 mm displaces film by at most the share 0.01 / 12 of the radius, down to the
-  // equator. The error of its velocity is less than half of that, over 12 mm (sim/sheet/README.md).
+  // Down to the equator, a step of 0.01 mm displaces film by at most the share 0.01 / 12 of the
+  // radius. The relative error of the velocity is less than half of that share, over a dip of 12 mm
+  // (sim/sheet/README.md).
   const double bound_mm = 0.5 * 0.01 / 12 * 12;
   EXPECT_LT(apart_mm(inertial, quasistatic), bound_mm);
-  // The bound is narrow enough to distinguish other models, and to show that the flags take effect.
+  // Other models and flags differ by more than this bound, so the comparison is meaningful.
   EXPECT_GT(apart_mm(map_of({"--model", "stokes"}), quasistatic), bound_mm);
   folder.write("film.toml", "poisson_ratio = 0.3\n");
   EXPECT_GT(apart_mm(map_of({"--inertia", "--profile", path("film.toml")}), quasistatic), bound_mm);

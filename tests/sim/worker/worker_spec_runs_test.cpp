@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// report.json without times and memory. A spec contains its pose, so there is no pose file.
+/// report.json without times, memory and the pose file, because a spec contains its pose.
 std::string comparable(const std::string& report) {
   Json json = Json::parse(report);
   for (const char* key : {"stage_seconds", "total_seconds", "peak_memory_bytes"}) json.erase(key);

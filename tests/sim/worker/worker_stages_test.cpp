@@ -56,7 +56,7 @@ Names listed(const Arguments& command) {
   return names;
 }
 
-/// Whether `some` is `all` with some names removed.
+/// Whether `some` equals `all` after removing some names.
 bool is_part_of(const Names& some, const Names& all) {
   auto next = all.begin();
   for (const std::string& name : some) {
@@ -96,7 +96,8 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
 }
 
 TEST_F(Stages, UnusedStagesAreLeftOut) {
-  const Arguments colourless = simulate({"--artifacts", "map"});  // and therefore without ink
+  // Without a texture there is no ink.
+  const Arguments colourless = simulate({"--artifacts", "map"});
   const Arguments patient =
       simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "10"});
   for (const Arguments& command : {colourless, patient}) {

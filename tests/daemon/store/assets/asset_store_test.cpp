@@ -25,7 +25,7 @@ class AssetStoreTest : public StoreTest {
   Asset put(const std::string& bytes, const std::string& owner = "ann") {
     return std::get<Asset>(send(begin(bytes, {}, owner).id, 0, bytes, owner).value());
   }
-  /// A job with these files.
+  /// Creates a job with this asset as input.
   Job made_of(const Asset& asset, const std::string& owner) {
     NewJob definition;
     definition.owner = owner;
@@ -86,7 +86,7 @@ TEST_F(AssetStoreTest, InputsOfASharedJobAreUsableWhileItIsShared) {
   ASSERT_TRUE(jobs->share(job.id, true));
   EXPECT_TRUE(may("bob", asset));
   EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason,
-            "ASSET_NOT_FOUND");  // not counted for bob
+            "ASSET_NOT_FOUND");  // the asset has no owner bob
   ASSERT_TRUE(jobs->share(job.id, false));
   EXPECT_FALSE(may("bob", asset));
 }
@@ -101,12 +101,12 @@ TEST_F(AssetStoreTest, AssetEndsWithItsLastOwnerUnlessAJobUsesIt) {
   EXPECT_TRUE(may("ann", asset));
   const Job job = made_of(asset, "ann"), others = made_of(asset, "bob");
   EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(stored("ann"), 4);  // stored bytes always count for an owner
+  EXPECT_EQ(stored("ann"), 4);  // the asset still counts for ann
   ASSERT_TRUE(jobs->cancel(job.id));
   ASSERT_TRUE(jobs->remove(job.id));
   ASSERT_TRUE(assets->remove(asset.sha256, ann));
   EXPECT_FALSE(may("ann", asset));
-  EXPECT_TRUE(may("bob", asset));  // through his job
+  EXPECT_TRUE(may("bob", asset));  // because of the job of bob
   EXPECT_TRUE(std::filesystem::exists(layout.asset(asset.sha256)));
   const Asset other = put("other");
   ASSERT_TRUE(assets->remove(other.sha256, ann));
@@ -115,7 +115,7 @@ TEST_F(AssetStoreTest, AssetEndsWithItsLastOwnerUnlessAJobUsesIt) {
 
 TEST_F(AssetStoreTest, RestartGrantsNoAssetsWithoutAnUpload) {
   const Asset asset = put("mesh");
-  const Upload upload = begin("mesh", {}, "bob");  // without sending any bytes
+  const Upload upload = begin("mesh", {}, "bob");  // bob sends no bytes
   open();
   EXPECT_FALSE(may("bob", asset));
   EXPECT_EQ(uploads->get(upload.id, "bob")->received_bytes, 0);
@@ -139,11 +139,11 @@ TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
   EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   EXPECT_EQ(refused.error().metadata.at("used"), "5");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "10");
-  EXPECT_TRUE(ask("123456", bob));  // quota of each owner
-  // Open uploads count, so that several at once cannot exceed the quota.
+  EXPECT_TRUE(ask("123456", bob));  // the quota applies to each owner separately
+  // Open uploads count, so that several simultaneous uploads cannot exceed the quota.
   const Upload upload = begin("abcde");
   EXPECT_FALSE(ask("x", ann));
-  // Artifacts of a job were added meanwhile.
+  // The artifacts of a job use up the quota before the upload ends.
   const Job job = add();
   complete(job.id);
   const auto late = send(upload.id, 0, "abcde");
@@ -164,7 +164,7 @@ TEST_F(AssetStoreTest, UnusedAssetsAreDeletedAfterTheirRetention) {
   now_ms += 999;
   ASSERT_TRUE(asset_retention->purge());
   EXPECT_TRUE(may("ann", unused));
-  EXPECT_TRUE(ask("asked", ann));  // retention starts again
+  EXPECT_TRUE(ask("asked", ann));  // a new request for the upload restarts the retention
   now_ms += 1;
   ASSERT_TRUE(asset_retention->purge());
   EXPECT_FALSE(select_asset(*database, unused.sha256));
@@ -285,7 +285,8 @@ TEST_F(AssetStoreTest, RestartSetsUnknownFilesAsideAndAdoptsVerifiedOnes) {
   std::filesystem::create_directories(layout.asset(sha256("junk")).parent_path());
   std::ofstream(layout.asset(sha256("junk"))) << "junk";
   std::ofstream(layout.upload("0123")) << "nobody's";
-  // The daemon was killed between the rename and the row: the verified bytes must not be lost.
+  // As if the daemon was killed after it renamed the file and before it wrote the row: the verified
+  // bytes must not be lost.
   const Upload upload = begin("renamed");
   std::filesystem::create_directories(layout.asset(upload.sha256).parent_path());
   std::ofstream(layout.asset(upload.sha256)) << "renamed";

@@ -1,4 +1,4 @@
-// Compares the rendered depths, without noise, with closed forms.
+// Compares rendered depths, without noise, with exact formulas.
 #include "hardware/simulator/camera/renderer.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using simulated_scene::Scenery;
 using simulated_scene::Sight;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays have single precision, 6e-5 mm at 800 mm.
+/// Tolerance of exact depths. Rays have single precision, 6e-5 mm at 800 mm.
 constexpr double kExact_mm = 2e-3;
 
 /// A half-space n . x <= c.
@@ -27,7 +27,7 @@ struct Side {
   double offset;
 };
 
-/// Depth at which a ray from a camera enters a convex body; infinite if it does not.
+/// Depth at which a ray from a camera enters a convex body; infinite if the ray misses the body.
 double entry(const std::vector<Side>& sides, const Eigen::Vector3d& from,
              const Eigen::Vector3d& along) {
   double in = 0, out = kInfinity;
@@ -62,7 +62,7 @@ TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
   scenery.bodies = {ground(), {"pyramid", simulated_scene::pyramid(60, 40), false}};
   const Lens lens = drawn_lens(11);
   simulated_scene::CameraStand stand;
-  stand.at_mm = {0, -200, 770};  // so that no side is at a grazing angle
+  stand.at_mm = {0, -200, 770};  // so that the camera sees no side at a grazing angle
   const Pose X_FC = simulated_scene::camera_pose(stand, 1, 0);
   const Depths seen = look(scenery, lens, X_FC);
   int on_pyramid = 0, at_its_edge = 0;
@@ -72,7 +72,7 @@ TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
     const double pyramid = entry(kPyramid, X_FC.translation(), along);
     if (pyramid < plane) ++on_pyramid;
     const double miss = std::abs(seen[i] - std::min(plane, pyramid));
-    // A ray along an outline may fall on either side of it.
+    // A ray along the outline of the pyramid may fall on either side of the outline.
     if (miss > kExact_mm) ++at_its_edge;
   }
   EXPECT_GT(on_pyramid, 1500);
@@ -120,7 +120,7 @@ TEST(Renderer, ASphereInTheGripperFollowsTheDrive) {
       const double b = from.dot(along);
       const double root = b * b - a * (from.squaredNorm() - kRadius_mm * kRadius_mm);
       const double facing = root > 0 ? std::sqrt(root / a) / kRadius_mm : 0;
-      if (facing < 0.3) continue;  // near the outline, triangles and sphere differ
+      if (facing < 0.3) continue;  // near the outline, the triangles differ from the sphere
       ++hits;
       // Triangles lie up to R (1 - cos(pi / 800)) = 0.3 um below the sphere.
       ASSERT_NEAR(seen[i], (-b - std::sqrt(root)) / a, 3 * kExact_mm);
@@ -143,8 +143,8 @@ TEST(Renderer, SurfacesWithoutProjectorLightAreNotMeasured) {
   for (int x = 0; x < kWidth_px; ++x) {
     if (row[x] == 0) ++(x < kWidth_px / 2 ? left : right);
   }
-  // The edge of the top at x = -50 shadows the ground up to where the projector's ray over the edge
-  // lands.
+  // The top's edge at x = -50 mm shadows the ground up to the point where the projector's ray over
+  // the edge lands.
   const double end_mm = 50 + (50 + kBaseline_mm) * height_mm / (800 - height_mm);
   const double start_mm = 50 * 800 / (800 - height_mm);
   EXPECT_NEAR(left, (end_mm - start_mm) * kFocal_px / 800, 1.01);
@@ -175,14 +175,14 @@ TEST(Renderer, MarkersAreRenderedInEveryState) {
   };
   Sight sight;
   const auto well = count(sight);
-  EXPECT_GT(well, 6000) << "four pyramids";
+  EXPECT_GT(well, 6000) << "the four marker pyramids must be visible";
   for (const auto state :
        {simulated_scene::MarkerState::kHidden, simulated_scene::MarkerState::kKnockedOver}) {
     sight.markers.assign(4, simulated_scene::MarkerState::kWell);
     sight.markers[2] = state;
     EXPECT_NE(count(sight), well);
   }
-  EXPECT_EQ(count({}), well) << "the marker stands again";
+  EXPECT_EQ(count({}), well) << "the marker must stand upright again";
 }
 
 TEST(Renderer, TheSameSceneSeedAndTimeGiveTheSameBits) {

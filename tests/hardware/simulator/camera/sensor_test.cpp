@@ -10,11 +10,12 @@ namespace hydroprint::simulated_camera {
 namespace {
 
 constexpr std::size_t kPixels = static_cast<std::size_t>(kWidth_px) * kHeight_px;
-constexpr double kRoundingVariance = 1.0 / 12;  // of whole millimetres
+/// Variance of rounding to whole millimetres, in mm^2.
+constexpr double kRoundingVariance = 1.0 / 12;
 
 Depths plane(double depth_mm) { return Depths(kPixels, static_cast<float>(depth_mm)); }
 
-/// Mean and unbiased variance of every pixel over time.
+/// Mean and unbiased variance over time, for every pixel.
 struct OverTime {
   std::vector<double> mean, variance;
 };
@@ -57,7 +58,7 @@ TEST(Sensor, SigmaMatchesTheFormulaAndHalfTheVarianceIsConstant) {
     const double passing = average(seen.variance);
     const double constant = spread(seen.mean) - passing / kFrames;
     EXPECT_NEAR(passing, variance / 2 + kRoundingVariance, 0.01 * variance) << z_mm;
-    // With 19200 patches, one standard deviation is 1 %.
+    // With 19200 patches, the standard deviation of this estimate is 1 %.
     EXPECT_NEAR(constant, variance / 2, 0.04 * variance / 2) << z_mm;
     EXPECT_NEAR(average(seen.mean), 0, 4 * std::sqrt(variance / 2 / 19200)) << z_mm;
   }
@@ -89,7 +90,8 @@ TEST(Sensor, DisparityHasStepsOfAnEighthPixel) {
   for (const int depth_mm : seen) {
     const double steps = 8 * 575.8 * 75 / depth_mm;
     const double nearest = 8 * 575.8 * 75 / std::round(steps);
-    EXPECT_LE(std::abs(nearest - depth_mm), 0.5) << "rounded to whole mm";
+    EXPECT_LE(std::abs(nearest - depth_mm), 0.5)
+        << "depths are a multiple of the step, rounded to whole mm";
   }
   const double all = 8 * 575.8 * 75 * (1 / 600.0 - 1 / 791.7);
   EXPECT_NEAR(static_cast<double>(seen.size()), all, 2);
@@ -121,7 +123,8 @@ TEST(Sensor, PixelsAreMissingAtEdgesAndNowhereElse) {
       ++missing;
     }
   }
-  EXPECT_NEAR(missing, kHeight_px, 4 * std::sqrt(kHeight_px / 2.0)) << "half of two columns";
+  EXPECT_NEAR(missing, kHeight_px, 4 * std::sqrt(kHeight_px / 2.0))
+      << "half of the pixels of the two columns at the edge";
 }
 
 TEST(Sensor, DepthIsScaledAndNotMeasuredOutOfRange) {

@@ -44,7 +44,7 @@ drive::DriveState BenchRig::poll_until(const std::function<bool(const drive::Dri
     const auto state = value_of(drive_.poll());
     if (done(state)) return state;
     if (testing::seconds_since(start) > kPatience_s) {
-      throw std::runtime_error("the condition did not become true");
+      throw std::runtime_error("the drive did not reach the expected state within 5 s");
     }
     std::this_thread::sleep_for(kPollEvery);
   }

@@ -20,14 +20,14 @@ using testing::seconds_of;
 /// A virtual rig and the real client, connected over "tcp" or "rtu".
 class BenchRig : public testing::VirtualRig {
  public:
-  /// By default, the axis can move both ways.
+  /// By default, the axis starts at 50 mm, where it can move both ways.
   explicit BenchRig(const std::string& wire,
                     const testing::VirtualRigOptions& options = {.start_mm = 50});
 
   /// Connects, polls and enables the drive.
   void make_ready();
 
-  /// Polls every 20 ms until `done` or for 5 s; returns the last state.
+  /// Polls every 20 ms until `done` is true for the state; returns that state. Throws after 5 s.
   drive::DriveState poll_until(const std::function<bool(const drive::DriveState&)>& done);
 
   /// Another link to the same drive.

@@ -18,8 +18,8 @@ constexpr std::uint16_t kWatchdogWord = 250;
 class CleanLine : public OnBothWires {};
 HP_ON_BOTH_WIRES(CleanLine);
 
-// Shows that the hazard exists: without silence after a timeout, the late word of one register is
-// taken for that of another. Without this, the next test would prove nothing.
+// Shows that the hazard exists, as the next test assumes: without silence after a timeout, the late
+// word of one register is taken for that of another.
 TEST(CleanLineSerial, WithoutSilenceALateReplyWouldBeTakenForAnotherOne) {
   BenchRig bench("rtu");
   const auto hasty = bench.other_link({milliseconds(500), milliseconds(100), milliseconds(0)});
@@ -28,7 +28,7 @@ TEST(CleanLineSerial, WithoutSilenceALateReplyWouldBeTakenForAnotherOne) {
   ASSERT_FALSE(hasty->transact(kMaker));
   const auto words = hasty->transact(kWatchdogTime);
   HP_ASSERT_OK(words);
-  EXPECT_EQ((*words)[0], kMakerWord) << "the other register's";
+  EXPECT_EQ((*words)[0], kMakerWord) << "the word of the other register";
 }
 
 TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
@@ -45,7 +45,7 @@ TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
   }
 }
 
-// The second line of defence, for a drive that is slower than stated in its profile.
+// A second protection, for a drive that is slower than stated in its profile.
 TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   BenchRig bench("rtu");
   const auto link = std::make_shared<drive::Link>(
@@ -56,7 +56,7 @@ TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   bench.act("fault late 180ms");
   ASSERT_FALSE(link->transact(kMaker));
   const auto state = drive.poll();
-  ASSERT_FALSE(state) << "decoded from words of another request";
+  ASSERT_FALSE(state) << "the state was decoded from the words of another request";
   EXPECT_EQ(state.error().reason, "REPLY_INVALID");
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
@@ -80,7 +80,8 @@ TEST_P(CleanLine, EveryCallEndsWithinItsTimeLimit) {
   bench.act("silent");
   const double first_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(first_s, 0.1 + 0.05);
-  // On a serial line, also the silence that follows, and the time for another reply.
+  // On a serial line, the silence after the timeout and the wait for another reply come in
+  // addition.
   const double second_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(second_s, 0.25 + 0.1 + 0.05);
 }

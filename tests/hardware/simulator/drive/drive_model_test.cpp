@@ -51,7 +51,7 @@ TEST(DriveModel, HomingWithoutASwitchEndsAtTheLimitSwitch) {
   Bench bench;
   bench.start(30);
   bench.inputs.negative_end = true;
-  EXPECT_FALSE(bench.order(Command::kHome)) << "into a pressed switch";
+  EXPECT_FALSE(bench.order(Command::kHome)) << "homing must not start into a pressed switch";
   bench.inputs.negative_end = false;
   ASSERT_TRUE(bench.order(Command::kHome));
   bench.run(0.5);
@@ -71,7 +71,7 @@ TEST(DriveModel, SilenceStopsTheAxisWithinWatchdogTimeAndStoppingDistance) {
   bench.model = step(bench.machine, bench.model, bench.inputs, 5);  // no messages
   EXPECT_EQ(bench.model.alarm, kWatchdog);
   EXPECT_EQ(bench.model.mode, Mode::kOff);
-  // The last message came at most one slice of 10 ms before x was read.
+  // The last message arrived at most 10 ms (one time step) before x was read.
   const double most_mm = 10 * 0.25 + 10.0 * 10 / (2 * 200);
   EXPECT_LE(bench.model.actual.x_mm - x_mm, most_mm + 1e-9);
   EXPECT_GE(bench.model.actual.x_mm - x_mm, most_mm - 10 * 0.011);
@@ -110,7 +110,7 @@ TEST(DriveModel, LimitSwitchesStopTheAxisAndOnlyAllowMotionAwayFromThem) {
   EXPECT_EQ(bench.model.alarm, kPositiveEnd);
   EXPECT_TRUE(at_positive_end(bench.machine, bench.model, bench.inputs));
   EXPECT_LT(bench.model.actual.x_mm, 305 + 20.0 * 20 / (2 * 200) + 0.03);
-  EXPECT_FALSE(bench.order(Command::kEnable)) << "before the reset";
+  EXPECT_FALSE(bench.order(Command::kEnable)) << "the drive must not be enabled before the reset";
   ASSERT_TRUE(bench.order(Command::kResetFault));
   ASSERT_TRUE(bench.order(Command::kEnable));
   EXPECT_EQ(bench.model.mode, Mode::kHold) << "a reset starts no motion";
@@ -134,7 +134,7 @@ TEST(DriveModel, StopButtonBrakesAndDisables) {
   EXPECT_FALSE(bench.order(Command::kEnable));
   bench.inputs.stop_button = false;
   bench.run(1);
-  EXPECT_EQ(bench.model.mode, Mode::kOff) << "releasing it starts no motion";
+  EXPECT_EQ(bench.model.mode, Mode::kOff) << "releasing the button starts no motion";
   EXPECT_TRUE(bench.order(Command::kEnable));
 }
 
@@ -169,7 +169,7 @@ TEST(DriveModel, NothingMovesUnlessEnabled) {
   for (const Command command : {Command::kHome, Command::kMove, Command::kJogPositive}) {
     EXPECT_FALSE(bench.order(command, 10, 5));
   }
-  EXPECT_TRUE(bench.order(Command::kStop)) << "is always accepted";
+  EXPECT_TRUE(bench.order(Command::kStop)) << "a stop is always accepted";
   EXPECT_TRUE(bench.order(Command::kDisable));
   bench.run(1);
   EXPECT_EQ(bench.model.actual.x_mm, 50);

@@ -95,7 +95,7 @@ TEST(Faults, CommandLineFaultsHaveTimes) {
   }
 }
 
-// The reply of the Modbus specification's serial line guide: unit 2, function 7; CRC 12 41.
+// The example in the Modbus serial line guide: unit 2, function 7, CRC 0x1241.
 TEST(Wire, ChecksumMatchesTheSpecification) {
   EXPECT_EQ(serial_frame({0x02, 0x07}, ReplyFaultKind::kNone), Bytes({0x02, 0x07, 0x41, 0x12}));
 }
@@ -114,7 +114,8 @@ TEST(Wire, EveryFaultChangesTheBytesItNames) {
   const Bytes wrong_crc = serial_frame(reply, ReplyFaultKind::kWrongCrc);
   EXPECT_EQ(Bytes(wrong_crc.begin(), wrong_crc.end() - 2), reply);
   EXPECT_NE(wrong_crc, rtu);
-  EXPECT_EQ(tcp_frame(header, reply, ReplyFaultKind::kWrongCrc)[1], 6) << "transaction id";
+  EXPECT_EQ(tcp_frame(header, reply, ReplyFaultKind::kWrongCrc)[1], 6)
+      << "over TCP, the transaction id is wrong instead";
   EXPECT_EQ(tcp_frame(header, reply, ReplyFaultKind::kLate), tcp);
 }
 

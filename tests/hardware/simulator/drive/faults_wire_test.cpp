@@ -10,8 +10,8 @@ namespace {
 
 struct Outcome {
   const char* fault;
-  const char* reason;  ///< of the poll that it affects
-  bool timeout;        ///< whether no reply came in time
+  const char* reason;  ///< reason of the affected poll's error
+  bool timeout;        ///< whether the reply is missing or late
   bool state_is_known = false;
 };
 
@@ -35,7 +35,7 @@ TEST_P(LineFault, HasItsStatedOutcomeAndTheLinkRecovers) {
   EXPECT_EQ(struck.error().metadata.contains("timeout"), outcome.timeout);
   if (!outcome.state_is_known) {
     const Status blind = bench.drive().move_to(5, 5);
-    ASSERT_FALSE(blind) << "a move while the state is unknown";
+    ASSERT_FALSE(blind) << "a move must be refused while the state is unknown";
     EXPECT_EQ(blind.error().reason, "RIG_OFFLINE");
   }
   if (!bench.drive().connected()) HP_ASSERT_OK(bench.drive().connect());
@@ -168,7 +168,7 @@ TEST_P(MachineFault, FrozenPositionDivergesFromTheDrivesTrajectory) {
   bench.act("freeze");
   const auto state = bench.poll_until([](const auto& s) { return *s.demand_mm > 4; });
   EXPECT_LT(state.position_mm, 3);
-  EXPECT_FALSE(state.alarm) << "the drive does not notice";
+  EXPECT_FALSE(state.alarm) << "the drive does not notice that its position is frozen";
 }
 
 }  // namespace

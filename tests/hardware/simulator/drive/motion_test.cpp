@@ -16,7 +16,8 @@ Goal move_to(double target_mm, double speed, double gain, double braking) {
   return {Goal::Kind::kPosition, target_mm, speed, gain, braking};
 }
 
-/// Distance from rest after t, with equal ramps (computed by hand).
+/// Distance after a time t from rest, with equal ramps at both ends. Written independently of the
+/// drive model.
 double trapezoid(double distance, double speed, double ramp, double t) {
   const double top = std::min(speed, std::sqrt(distance * ramp));
   const double ramp_s = top / ramp;
@@ -71,7 +72,8 @@ TEST(Motion, NeverExceedsItsLimitsForAnySequenceOfGoals) {
     const Kinematics next = advance(now, goal, 0.01);
     EXPECT_LE(std::abs(next.v_mm_per_s), 12 + 1e-9);
     EXPECT_LE(std::abs(next.v_mm_per_s - now.v_mm_per_s), 300 * 0.01 + 1e-9);
-    // Position is the integral of velocity: the trapezium rule is off by at most a dt^2 / 4.
+    // Position is the integral of velocity. The trapezoidal rule has an error of at most
+    // a dt^2 / 4.
     EXPECT_NEAR(next.x_mm - now.x_mm, 0.01 * (now.v_mm_per_s + next.v_mm_per_s) / 2,
                 300 * 1e-4 / 4 + 1e-9);
     now = next;

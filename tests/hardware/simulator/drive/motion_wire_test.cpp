@@ -8,9 +8,10 @@
 namespace hydroprint::simulated_drive {
 namespace {
 
-constexpr double kCount_mm = 1e-4;  // of the virtual drive
+constexpr double kCount_mm = 1e-4;  // resolution of the virtual drive's position
 
-/// Distance from rest, computed by hand.
+/// Distance after a time t from rest, with equal ramps at both ends. Written independently of the
+/// drive model.
 double trapezoid_mm(double distance, double speed, double ramp, double t) {
   const double ramp_s = speed / ramp;
   const double total_s = distance / speed + ramp_s;
@@ -41,7 +42,7 @@ TEST_P(Motion, IsATrapezoidWithinTheDurationOfAMessage) {
     ++samples;
     return !state.moving;
   });
-  EXPECT_GE(samples, 16) << "20 Hz or better";
+  EXPECT_GE(samples, 16) << "the drive must be polled at 20 Hz or more";
   EXPECT_NEAR(bench.drive().poll()->position_mm, 8, kCount_mm);
 }
 
@@ -66,7 +67,7 @@ TEST_P(Motion, HomesFromBothSidesOfTheSwitch) {
     HP_ASSERT_OK(bench.drive().home());
     const auto state = bench.poll_until([](const auto& s) { return s.homed && !s.moving; });
     EXPECT_NEAR(state.position_mm, 0, kCount_mm);
-    EXPECT_NEAR(bench.position_mm(), 0, 1e-9) << "the switch's edge";
+    EXPECT_NEAR(bench.position_mm(), 0, 1e-9) << "home must be the edge of the switch";
   }
 }
 
@@ -93,7 +94,7 @@ TEST_P(Motion, JogContinuesWhileCommandedAndThenEndsByItself) {
     std::this_thread::sleep_for(milliseconds(50));
   }
   EXPECT_EQ(bench.drive().poll()->velocity_mm_per_s, -10);
-  // The drive is polled throughout, so the dead-man timer ends the jog, not the watchdog.
+  // The drive is polled all the time, so the jog is ended by the dead-man timer, not the watchdog.
   const auto begin = Clock::now();
   const auto state = bench.poll_until([](const auto& s) { return !s.moving; });
   EXPECT_LT(seconds(Clock::now() - begin), bench.profile().jog_dead_man_s + 0.1);

@@ -19,7 +19,8 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
  protected:
   static std::string path() { return std::string(HYDROPRINT_PROFILES "/") + GetParam() + ".toml"; }
 
-  /// The profile as shipped, or with a watchdog that its drive lacks, so that it can move.
+  /// Options with the profile as shipped. `with_watchdog` adds an invented watchdog if the profile
+  /// has none, so that the drive may move.
   [[nodiscard]] testing::VirtualRigOptions options(bool with_watchdog) const {
     testing::VirtualRigOptions out{.start_mm = 2, .profile = path()};
     if (!with_watchdog || drive::read_drive_profile(path())->watchdog) return out;

@@ -10,19 +10,19 @@
 namespace hydroprint::simulated_drive {
 namespace {
 
-/// Duration of a poll of the virtual drive in seconds: request 8 bytes, reply 5 + 18, of 11 bits
-/// each (8E1), and a gap after each.
+/// Duration of a poll of the virtual drive in seconds: 8 bytes of request and 5 + 18 bytes of
+/// reply, each of 11 bits (8E1), and a gap after each of the two frames.
 double arithmetic_s(double baud, double gap_s) { return (8 + 23) * 11 / baud + 2 * gap_s; }
 
-/// Minimum over many polls, since the machine only adds delays. Ends when a poll is as fast as the
-/// wire allows, or after 5 s.
+/// Shortest duration of a poll, because a busy machine only adds delays. Measures until a poll is
+/// about as fast as the wire allows, for at most 5 s.
 double measured_s(int baud, double expected_s) {
   BenchRig bench("rtu", {.arguments = {"--baud", std::to_string(baud)}});
   EXPECT_TRUE(bench.drive().connect());
   const Clock::time_point begun = Clock::now();
   double least_s = 1;
   do {
-    // Two polls at a time, because the gap after a frame delays the next one.
+    // Measures two polls at a time, because the gap after a frame delays the next poll.
     const double two_s = seconds_of([&] {
       EXPECT_TRUE(bench.drive().poll());
       EXPECT_TRUE(bench.drive().poll());
@@ -78,7 +78,7 @@ TEST(Tcp, AMissingConnectionIsReportedAtOnce) {
   EXPECT_EQ(words.error().reason, "RIG_OFFLINE");
 }
 
-// libmodbus's own client, which shares no code with ours.
+// The client of libmodbus, which shares no code with ours.
 TEST(VirtualDrive, RespondsToAnIndependentClient) {
   BenchRig bench("tcp");
   modbus_t* peer = modbus_new_tcp("127.0.0.1", bench.endpoint().port);
@@ -89,16 +89,16 @@ TEST(VirtualDrive, RespondsToAnIndependentClient) {
   EXPECT_EQ(words[0], 0x4850);
   ASSERT_EQ(modbus_read_input_registers(peer, 0x0100, 9, words.data()), 9);
   EXPECT_EQ(words[0], 0xa55a);
-  EXPECT_EQ(words[1], 0x0080) << "only the stop button, which is normally closed";
+  EXPECT_EQ(words[1], 0x0080) << "only the bit of the stop input, which is normally closed, is set";
   ASSERT_EQ(modbus_write_register(peer, 0x0300, 1), 1);
-  // To 1.5 mm at 20 mm/s with 200 mm/s^2.
+  // A move to 1.5 mm at 20 mm/s with 200 mm/s^2.
   const std::array<std::uint16_t, 6> move = {4, 0, 15000, 0, 20000, 2000};
   ASSERT_EQ(modbus_write_registers(peer, 0x0300, 6, move.data()), 6);
   do {
     std::this_thread::sleep_for(milliseconds(20));
     ASSERT_EQ(modbus_read_input_registers(peer, 0x0100, 9, words.data()), 9);
   } while (words[1] == 0x0085);
-  EXPECT_EQ(words[1], 0x0081) << "enabled, at rest, after it was enabled and moved";
+  EXPECT_EQ(words[1], 0x0081) << "the drive must be enabled and at rest after the move";
   EXPECT_EQ(words[3] << 16 | words[4], 15000);
   EXPECT_EQ(modbus_read_registers(peer, 0x7000, 1, words.data()), -1);
   EXPECT_EQ(errno, EMBXILADD);

@@ -1,4 +1,4 @@
-// Stop has its own path to the drive.
+// A stop has its own path to the drive.
 #include "hardware/drive/stop_line.h"
 
 #include <thread>
@@ -28,9 +28,10 @@ TEST(StopTcp, DoesNotWaitForABlockedThread) {
   drive::StopLine stop(bench.drive());
   HP_ASSERT_OK(stop.connect());
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
-  EXPECT_LT(stop_while_stuck_s(bench, stop), 0.08) << "the blocked thread waits 0.1 s";
+  EXPECT_LT(stop_while_stuck_s(bench, stop), 0.08)
+      << "a stop after the blocked thread would take 0.1 s";
   std::this_thread::sleep_for(milliseconds(60));
-  EXPECT_EQ(bench.mode(), "hold") << "stopped, not timed out";
+  EXPECT_EQ(bench.mode(), "hold") << "the stop must stop the drive before its watchdog does";
 }
 
 TEST(StopSerial, PrecedesOtherRequestsOnTheLine) {
@@ -38,8 +39,8 @@ TEST(StopSerial, PrecedesOtherRequestsOnTheLine) {
   bench.make_ready();
   drive::StopLine stop(bench.drive());
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
-  // At most the rest of the other thread's 0.1 s and the transmission time, without the silence
-  // that follows.
+  // The stop waits at most for the rest of the other thread's 0.1 s and for its own transmission,
+  // but not for the silence after the timeout.
   EXPECT_LT(stop_while_stuck_s(bench, stop), 0.1 + 0.04);
   std::this_thread::sleep_for(milliseconds(60));
   EXPECT_EQ(bench.mode(), "hold");

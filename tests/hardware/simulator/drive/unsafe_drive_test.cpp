@@ -8,11 +8,12 @@ namespace {
 class UnsafeDrive : public OnBothWires {};
 HP_ON_BOTH_WIRES(UnsafeDrive);
 
-/// Returns connect()'s verdict on the drive; the drive must be readable but must not move.
+/// Returns the reason why connect() finds the drive unsafe. Expects that the drive can be read but
+/// not moved.
 Error held_against(BenchRig& bench) {
   const auto found = bench.drive().connect();
   if (!found || !found->unsafe) {
-    ADD_FAILURE() << "nothing";
+    ADD_FAILURE() << "the drive was not found to be unsafe";
     return {};
   }
   EXPECT_TRUE(bench.drive().poll());

@@ -42,14 +42,14 @@ TEST(Codec, OtherInputIsRefused) {
   }
   std::string wrong = good;
   wrong.replace(wrong.find("\"triangles\":[") + 13, 1, "99999");
-  EXPECT_FALSE(scenery_of(wrong)) << "index out of range";
+  EXPECT_FALSE(scenery_of(wrong)) << "a triangle has a vertex index out of range";
   for (const char* text : {"", "ok", "{}", "[]", "error: no camera", "{\"time_s\":\"x\"}"}) {
     EXPECT_FALSE(sight_of(text)) << text;
     EXPECT_EQ(scenery_of(text).error().code, Code::kDataLoss);
   }
   std::string state = to_json(Sight{});
   state.replace(state.find("\"well\""), 6, "\"cross-eyed\"");
-  EXPECT_FALSE(sight_of(state)) << "an unknown state";
+  EXPECT_FALSE(sight_of(state)) << "the state of a marker is unknown";
 }
 
 }  // namespace

@@ -19,8 +19,10 @@ TEST(Hand, AStandIsStillAndLooksAtItsTargetWithTheFarSideUp) {
   const Eigen::Vector3d target = pose.inverse() * stand.looks_at_mm;
   EXPECT_NEAR(target.head<2>().norm(), 0, 1e-9);
   EXPECT_NEAR(target.z(), stand.at_mm.norm(), 1e-9);
-  EXPECT_LT((pose.inverse() * Eigen::Vector3d(0, 100, 0)).y(), 0) << "up in the image";
-  EXPECT_GT((pose.inverse() * Eigen::Vector3d(100, 0, 0)).x(), 0) << "right in the image";
+  EXPECT_LT((pose.inverse() * Eigen::Vector3d(0, 100, 0)).y(), 0)
+      << "+y must point up in the image";
+  EXPECT_GT((pose.inverse() * Eigen::Vector3d(100, 0, 0)).x(), 0)
+      << "+x must point right in the image";
   EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
 }
 
@@ -51,7 +53,7 @@ TEST(Hand, TremblesByMillimetresSmoothlyAndReproducibly) {
   }
   EXPECT_GT(farthest_mm, 1.5);
   EXPECT_LT(farthest_mm, 8);
-  EXPECT_LT(fastest_mm, 80) << "mm/s: no jumps";
+  EXPECT_LT(fastest_mm, 80) << "the path must have no jumps; speed in mm/s";
   EXPECT_FALSE(camera_pose(stand, 5, 1).isApprox(camera_pose(stand, 6, 1)));
 }
 

@@ -22,7 +22,7 @@ std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// Plans, creates and commits DIR with a report that contains this text.
+/// Plans, creates and commits the folder `dir`, with report.json that contains `report`.
 Status make(const fs::path& dir, const std::string& report) {
   HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(dir));
   HP_RETURN_IF_ERROR(folder.create());
@@ -68,7 +68,7 @@ TEST(OutFolder, AnEarlierRunIsReplacedAsAWhole) {
   EXPECT_EQ(entries(place.path()), 1u);
 }
 
-/// Lets a process write half an artifact folder and die of SIGKILL.
+/// Lets a process die of SIGKILL when its artifact folder is half written.
 void leave_half_of(const fs::path& dir) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -91,7 +91,7 @@ TEST(OutFolder, PartialFoldersOfKilledProcessesAreRemovedByTheNextRun) {
   leave_half_of(place.path() / "other");
   EXPECT_EQ(entries(place.path()), 2u);
   ASSERT_TRUE(make(place.path() / "out", "new"));
-  EXPECT_EQ(entries(place.path()), 2u) << "the other folder's stays";
+  EXPECT_EQ(entries(place.path()), 2u) << "the partial folder of `other` must stay";
   ASSERT_TRUE(make(place.path() / "other", "new"));
   EXPECT_EQ(entries(place.path()), 2u);
   EXPECT_EQ(content(place.path() / "other" / "report.json"), "new");

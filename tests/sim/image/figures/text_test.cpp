@@ -16,7 +16,7 @@ RgbImage blank(int width, int height) {
           std::vector<std::uint8_t>(3U * static_cast<unsigned>(width * height), 255)};
 }
 
-/// Columns of an image that have any ink, first and last.
+/// First and last column of an image that contain ink.
 std::pair<int, int> inked_columns(const RgbImage& image) {
   int first = image.width, last = -1;
   for (int y = 0; y < image.height; ++y) {

@@ -46,13 +46,13 @@ TEST(FilmImage, SizesMatchTheContract) {
   const FilmGrid a4_300 = film_grid(rectangle(210, 297), 25.4 / 300);
   EXPECT_EQ(a4_300.columns, 2480);
   EXPECT_EQ(a4_300.rows, 3508);
-  // Centred on the film at a pitch that does not divide it.
+  // The image is centred on the film, although the film is not a multiple of the pitch.
   EXPECT_NEAR(a4.cell({0, 0}).x(), 4961 / 2.0, 1e-9);
   EXPECT_NEAR(a4.cell({0, 0}).y(), 7016 / 2.0, 1e-9);
 }
 
 TEST(FilmImage, AnInchAt100DpiIsExactly100Pixels) {
-  // Lower left corner at (0, 0) of a 100 x 80 mm film: 394 x 315 pixels.
+  // The plate's lower left corner is the middle of a film of 101.6 x 76.2 mm: 400 x 300 pixels.
   const mesh::Model model = plate(0, 0, 25.4, 25.4);
   const Paint paint = paint_of(model, make_image(4, 4, [](int, int) { return kRed; }));
   const RgbImage image = image_of(model, paint, rectangle(101.6, 76.2), 100);
@@ -81,7 +81,7 @@ TEST(FilmImage, IsSeenFromAboveWithXToTheRightAndYUp) {
 }
 
 TEST(FilmImage, AnIdentityMapReproducesTheTexture) {
-  // One texel per pixel: every pixel must be that texel's colour, to the bit.
+  // One texel per pixel, so every pixel must have the colour of its texel.
   const auto pattern = [](int x, int y) {
     return std::array<int, 3>{(x * 37 + y * 11) % 256, (x * 5 + y * 91) % 256, (x ^ y) % 256};
   };
@@ -94,7 +94,8 @@ TEST(FilmImage, AnIdentityMapReproducesTheTexture) {
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
     worst = std::max(worst, std::abs(int{image.rgb[i]} - int{texture.rgb[i]}));
   }
-  // UVs are floats, so a neighbouring texel may contribute 1e-5.
+  // UVs are floats, so a neighbouring texel may contribute 1e-5, which may change the rounding
+  // by 1.
   EXPECT_LE(worst, 1);
 }
 
@@ -122,7 +123,7 @@ TEST(FilmImage, AMinifiedCheckerboardIsMidGreyInLinearLight) {
 }
 
 TEST(FilmImage, MinificationAlongOneAxisKeepsTheOtherSharp) {
-  // Vertical stripes 8 texels wide; the map squeezes only v, 32 to 1.
+  // Vertical stripes 8 texels wide. The map shrinks only v, 32 to 1.
   const RgbImage stripes = make_image(256, 2048, [](int x, int y) {
     if (x / 8 % 2 == 1) return std::array<int, 3>{0, 0, 0};
     return y % 2 == 0 ? kWhite : kRed;
@@ -132,8 +133,8 @@ TEST(FilmImage, MinificationAlongOneAxisKeepsTheOtherSharp) {
   ASSERT_EQ(image.width, 256);
   ASSERT_EQ(image.height, 64);
   for (int y = 8; y < 56; ++y) {
-    EXPECT_LT(image.at(12, y)[0], 40) << "the dark stripe's middle";
-    EXPECT_GT(image.at(4, y)[0], 240) << "the light stripe's middle";
+    EXPECT_LT(image.at(12, y)[0], 40) << "middle of a dark stripe";
+    EXPECT_GT(image.at(4, y)[0], 240) << "middle of a light stripe";
     EXPECT_NEAR(image.at(4, y)[1], srgb8_from_linear(0.5F), 12);
   }
 }

@@ -77,8 +77,8 @@ TEST(FilmMap, TheEarliestContactCounts) {
   scene.map.tiles = late;
   const auto map = film_map(scene.surface, scene.map, rectangle(40, 30), 1, {});
   ASSERT_TRUE(map);
-  EXPECT_NEAR(map->time_s[15 * 40 + 20], 4.05, 1e-5);  // (0.5, -0.5): both
-  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5): only the later one
+  EXPECT_NEAR(map->time_s[15 * 40 + 20], 4.05, 1e-5);  // (0.5, -0.5) mm: covered by both plates
+  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5) mm: only by the later one
 }
 
 TEST(FilmMap, AnExrKeepsNamesAndValues) {

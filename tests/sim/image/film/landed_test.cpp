@@ -57,7 +57,8 @@ TEST(Landed, ColoursPerPointMatchTheTexture) {
       continue;
     }
     const Eigen::Vector2d p = printed.surface.points[i].head<2>();
-    if (std::abs(p.x()) > 29 || std::abs(p.y()) > 19) continue;  // half white at the edge
+    // The film image is half white at the edge.
+    if (std::abs(p.x()) > 29 || std::abs(p.y()) > 19) continue;
     EXPECT_NEAR(colours[i].x(), (p.x() + 30) / 60, 0.01);
     EXPECT_NEAR(colours[i].y(), (20 - p.y()) / 40, 0.01);
     EXPECT_NEAR(colours[i].z(), 128 / 255.0, 0.01);
@@ -111,7 +112,8 @@ TEST(Landed, AModelWithoutUvsIsRefusedForATexture) {
 }
 
 TEST(FilmTexture, AnImageOfAnySizeIsFittedToTheFilm) {
-  // 37 x 23 pixels over 80 x 60 mm: not a whole resolution, so the image is fitted to the film.
+  // 37 x 23 pixels over 80 x 60 mm do not have a whole number of dots per inch, so the image is
+  // fitted to the film.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "odd.png", smooth_texture(37, 23), 72));
   const auto film = FilmTexture::read(folder / "odd.png", rectangle(80, 60), {});
@@ -151,7 +153,7 @@ TEST(Pictures, ShowTheObjectWithAndWithoutFilmFromAnySide) {
   ASSERT_TRUE(with && without);
   EXPECT_GT(colours_of(*with).size(), 2000U);
   for (const auto& [r, g, b] : colours_of(*without)) {
-    EXPECT_NEAR(r, g, 6) << "a bare object on paper is grey";
+    EXPECT_NEAR(r, g, 6) << "the picture of an object without film must be grey";
     EXPECT_NEAR(g, b, 10);
   }
 }

@@ -16,7 +16,7 @@
 namespace hydroprint::image {
 namespace {
 
-/// Bytes that do not compress.
+/// An image whose bytes do not compress.
 RgbImage noise(int width, int height) {
   std::uint32_t state = 1;
   RgbImage image{width, height, {}};
@@ -66,7 +66,7 @@ TEST(EncodePng, Grey16ReadsBackUnchanged) {
 }
 
 TEST(EncodePng, ReadsBackUnchangedForAnyImageSize) {
-  // One pixel, one row, one column, one band of rows and several, a row longer than a band.
+  // One pixel, one row, one column, one band of rows, several bands, and rows longer than a band.
   for (const auto& [width, height] :
        {std::pair{1, 1}, {700, 1}, {1, 700}, {300, 200}, {2480, 500}, {400000, 3}}) {
     for (const RgbImage& image : {ramp(width, height), noise(width, height)}) {

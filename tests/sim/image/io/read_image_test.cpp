@@ -104,8 +104,8 @@ TEST(ReadImage, GreySixteenBitAndFloatImagesAreRead) {
   const auto c = read_image(folder / "light.tif", {});
   ASSERT_TRUE(c);
   EXPECT_EQ(c->image.texels[9].b, 16384);
-  EXPECT_EQ(c->image.texels[1].b, 0) << "not a number";
-  EXPECT_EQ(c->image.texels[2].r, 65535) << "beyond white";
+  EXPECT_EQ(c->image.texels[1].b, 0) << "NaN must become 0";
+  EXPECT_EQ(c->image.texels[2].r, 65535) << "values beyond white must become white";
 }
 
 TEST(ReadImage, AlphaIsLaidOverWhiteInLinearLight) {

@@ -36,7 +36,7 @@ Paint load(const mesh::Model& model, const RgbImage& texture) {
   return std::move(*paint);
 }
 
-/// A triangle in the texture; its texels (those with their centre inside) are red, all others blue.
+/// A texture that is red inside a triangle (texels whose centre lies inside) and blue elsewhere.
 RgbImage red_triangle_on_blue(const Corners& uv, int size) {
   RgbImage image = make_image(size, size, [](int, int) { return kBlue; });
   Corners at;
@@ -154,7 +154,7 @@ TEST(Paint, WrapModesDefineTheTextureOutside) {
   model.materials[0].name = "m";
   model.materials[0].texture = folder / "t.png";
   model.triangle_material = {0, 0};
-  // The dark halves, for each third from left to right.
+  // Colours of the six half texture widths from left to right: "d" dark, "r" red.
   const auto dark = [&](mesh::Wrap wrap) {
     model.materials[0].wrap_u = wrap;
     const auto paint = load_paint(model, {}, {});
@@ -172,7 +172,8 @@ TEST(Paint, WrapModesDefineTheTextureOutside) {
 }
 
 TEST(Paint, ATextureThatFillsItsTileDoesNotWrapAroundAtItsEdges) {
-  // Left edge red, right edge blue: repeat must not mix them at the border of the chart.
+  // The left edge is red and the right edge blue. Repeating must not mix them at the border of the
+  // chart.
   const mesh::Model model = plate(-20, -20, 20, 20);
   const Paint paint =
       load(model, make_image(8, 8, [](int x, int) { return x < 4 ? kRed : kBlue; }));

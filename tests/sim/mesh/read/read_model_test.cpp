@@ -231,11 +231,12 @@ TEST(ReadGltf, MaterialsCoordinatesAndEmbeddedImagesAreKept) {
   const Folder folder;
   const Model m = read(folder.write("a.gltf", textured_gltf()));
   ASSERT_EQ(m.corner_uvs.size(), 4U);
-  EXPECT_EQ(m.corner_uvs[1][1], Eigen::Vector2f(1, 0.75));  // v = 0.25 in the file, down
+  // In the file, v is 0.25 and points down.
+  EXPECT_EQ(m.corner_uvs[1][1], Eigen::Vector2f(1, 0.75));
   const auto& material = m.materials.at(m.triangle_material.at(0));
   EXPECT_TRUE(material.has_colour);
   EXPECT_NEAR(material.colour[0], 1, 1e-6);
-  EXPECT_NEAR(material.colour[1], 0.7353569, 1e-5);  // 0.5 in linear light
+  EXPECT_NEAR(material.colour[1], 0.7353569, 1e-5);  // sRGB value of 0.5 in linear light
   EXPECT_EQ(material.wrap_u, Wrap::kClamp);
   EXPECT_EQ(material.wrap_v, Wrap::kMirror);
   ASSERT_EQ(material.texture_bytes.size(), 7U);
@@ -273,7 +274,7 @@ TEST(ReadGltf, BrokenFilesAreRefused) {
   expect_refused(folder.write("b.gltf", "[1,2,3]"), "not valid glTF JSON");
 }
 
-/// Whatever the damage, reading ends with a result and touches no foreign memory.
+/// Reading a damaged file must end with a model or an error, without invalid memory accesses.
 TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
   const Folder folder;
   const std::map<std::string, std::string> files = {
@@ -312,5 +313,5 @@ TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
 }  // namespace
 }  // namespace hydroprint::mesh
 
-/// assimp leaks its own parser (a kilobyte) when it refuses a PLY file.
+/// When assimp refuses a PLY file, it leaks its parser (a kilobyte).
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }

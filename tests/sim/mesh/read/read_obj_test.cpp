@@ -44,7 +44,7 @@ TEST(ReadObj, NegativeIndicesCountFromTheLine) {
 
 TEST(ReadObj, ConcavePolygonsAreTiledWithinTheirOutline) {
   const Folder folder;
-  // An arrow head that starts at a corner from which a fan would leave the outline, then an L.
+  // First an arrow head, listed from a corner from which a fan would leave the outline; then an L.
   const Model arrow =
       read(folder.write("a.obj", "v 0 3 0\nv 0 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4\n"));
   EXPECT_EQ(arrow.triangles.size(), 2U);

@@ -24,7 +24,7 @@ std::filesystem::path model_path(const std::string& name) {
 TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
   const auto& expected = GetParam();
   const auto path = model_path(expected.file);
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
   const Model m = read(path, 10);
   EXPECT_EQ(m.vertices.size(), expected.vertices);
   EXPECT_EQ(m.triangles.size(), expected.triangles);
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(RealModels, BottleAsGltfAndAsObjAgree) {
   const auto path = model_path("bottle/WaterBottle.gltf");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
   const Model gltf = read(path, 1000);
   const Model obj = read(model_path("bottle/WaterBottle_converted.obj"), 1000);
   ASSERT_EQ(gltf.triangles.size(), obj.triangles.size());

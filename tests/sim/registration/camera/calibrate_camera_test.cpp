@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::uint64_t kSeed = 3;
 
-/// A possible lens of the virtual camera.
+/// A random lens of the virtual camera.
 simulated_camera::Lens real_lens() { return simulated_camera::drawn_lens(kSeed); }
 scan::Lens truth() { return testing::lens_of(real_lens()); }
 
-/// Position of a board: distance, place in the image (shares of half of it), tilt, rotation.
+/// Pose of a board: distance, place in the image (as shares of half the image), tilt and rotation.
 struct Hold {
   double distance_mm, across, down, tilt_rad, tilt_towards_rad, turn_rad;
 };
@@ -46,7 +46,7 @@ Pose held(const Hold& hold) {
   return X_CB;
 }
 
-/// The board in front of the camera, and nothing else.
+/// Views of the board in these poses, with nothing else in front of the camera.
 std::vector<scan::FusedFrame> views(const std::vector<Hold>& holds, bool noise) {
   testing::Rig rig;
   rig.lens = real_lens();
@@ -98,8 +98,8 @@ TEST(CalibrateCamera, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_NEAR(found->rms_sigmas, 1, 0.2);
 }
 
-/// Errors of the learned pattern against the camera's own, in standard deviations, where the views
-/// gave information on it; and the error of their mean.
+/// Errors of the learned pattern compared with the camera's own, in standard deviations, for
+/// patches on which the views gave information; and the error of the patches' mean.
 struct PatternError {
   std::vector<double> sigmas;
   double mean_sigmas = 0;
@@ -130,7 +130,7 @@ TEST(CalibrateCamera, LearnsTheFixedPatternWithinItsStatedErrors) {
   ASSERT_TRUE(found) << found.error().message;
   const scan::FixedPattern& pattern = found->pattern;
   ASSERT_EQ(pattern.patches(), simulated_camera::constant_noise(kSeed).size());
-  // At least a third of the pattern is known from these views of eight frames.
+  // These views of eight frames determine at least a third of the pattern.
   const auto is_known = [](float sigma) { return sigma < 0.4; };
   EXPECT_GT(std::count_if(pattern.sigma.begin(), pattern.sigma.end(), is_known),
             static_cast<std::ptrdiff_t>(pattern.patches() / 3));
@@ -148,7 +148,7 @@ TEST(CalibrateCamera, ManyViewsLeaveNoMoreSharedErrorThanTwelve) {
   double largest = 0;
   for (const float offset : found->pattern.offset)
     largest = std::max(largest, std::abs(static_cast<double>(offset)));
-  EXPECT_LT(largest, 0.5);  // no noise in these, only pixels at creases
+  EXPECT_LT(largest, 0.5);  // without noise, the pattern contains only errors of pixels at creases
 }
 
 TEST(CalibrateCamera, TooFewViewsAreRefused) {
@@ -160,7 +160,8 @@ TEST(CalibrateCamera, TooFewViewsAreRefused) {
   EXPECT_NE(found.error().message.find("2 views"), std::string::npos);
 }
 
-/// The missing coverage for views of boards held in these ways; the points are computed.
+/// The missing coverage reported for views of boards in these poses. The points are computed, not
+/// rendered.
 std::string lacking_in(const std::vector<Hold>& holds) {
   std::vector<BoardView> out;
   for (const Hold& hold : holds) {

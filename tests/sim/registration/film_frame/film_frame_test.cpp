@@ -1,4 +1,4 @@
-// The film frame from scans of four pyramids.
+// The film frame from scans of the four marker pyramids.
 #include "sim/registration/film_frame/film_frame.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ scan::Cloud cloud_of(const std::vector<scan::DepthFrame>& frames, const scan::Le
   return std::move(*cloud);
 }
 
-/// The configured pose of a camera that was bumped.
+/// The configured pose of a camera that has been moved since.
 Pose nominal(const Rig& rig) { return rig.X_CF() * crooked(12 * kDegree, 30, 5); }
 
 Result<FilmFrame> found(const Rig& rig) {
@@ -68,7 +68,7 @@ TEST(FilmFrame, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_GE(within, kSeeds * 9 / 10);
 }
 
-/// The warning or error if marker 1, "right", is wrong.
+/// Message about marker 1, "right", which is wrong: the reason why it is not used, or the error.
 std::string left_out(const Rig& rig) {
   const auto frame = found(rig);
   if (!frame) return frame.error().message;

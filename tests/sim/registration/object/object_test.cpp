@@ -20,13 +20,13 @@ using testing::box;
 using testing::crooked;
 using testing::Rig;
 
-/// The middle of the image; it is faster and shows the whole object.
+/// The middle of the image, which shows the whole object and makes the tests faster.
 constexpr testing::Window kMiddle{160, 100, 320, 240};
 
 /// The board of the samples, without its picture.
 mesh::Surface board() { return box({-60, -60, 0}, {60, 60, 10}); }
 
-/// Three arms of different lengths: no rotation or reflection maps it to itself.
+/// A body with three arms of different lengths. No rotation or reflection maps it to itself.
 mesh::Surface tripod() {
   mesh::Surface all = box({-15, -15, -15}, {75, 15, 15});
   all = joined(std::move(all), box({-15, 15, -15}, {15, 55, 15}));
@@ -118,7 +118,8 @@ TEST(Object, SphereDeterminesNoRotationSoTheNominalOneIsUsed) {
   for (const std::string& w : pose->weak) EXPECT_EQ(w.substr(0, 4), "turn") << w;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.task.nominal_FO), 0.01 * kDegree);
   EXPECT_LT((pose->X_FO.translation() - hanging.X_FO.translation()).norm(), 0.1);
-  // The rotation, and so the surface, is as uncertain as the nominal pose; the middle is not.
+  // The rotation, and so the surface, is as uncertain as in the nominal pose. The middle is
+  // accurate.
   const std::vector<Eigen::Vector3d> places{pose->centre_mm,
                                             pose->centre_mm + Eigen::Vector3d(50, 0, 0)};
   const auto error = error_at(places, pose->centre_mm, pose->covariance);
@@ -170,16 +171,16 @@ TEST(Object, NoObjectOrTwoObjectsAreRefused) {
 
 TEST(Object, HalfOutOfViewIsReported) {
   Hanging hanging(tripod());
-  hanging.window.u += 160;  // the camera looks past it
+  hanging.window.u += 160;  // the window shows only a part of the object
   const auto pose = hanging.find();
-  if (!pose) return;  // an error is also a valid answer
+  if (!pose) return;  // refusing the scan is valid, too
   ASSERT_FALSE(pose->warnings.empty());
   EXPECT_EQ(pose->warnings[0].code, "object_partly_out_of_view");
 }
 
 TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {
   Hanging hanging(tripod());
-  // Sees three sides, however it is tilted.
+  // From here, the camera sees three sides of the object for every tilt.
   hanging.rig.stand = testing::stand_at(800, 50 * kDegree, 0.75);
   int within = 0;
   constexpr std::uint32_t kSeeds = 20;
@@ -205,7 +206,7 @@ TEST(Object, RealModelsAreFound) {
   for (const auto& [file, scale] :
        {std::pair{"mug/mug.obj", 10.0}, std::pair{"head/LeePerrySmith_converted.obj", 15.0}}) {
     const std::filesystem::path path = std::filesystem::path(HYDROPRINT_MODELS_DIR) / file;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
     const auto model = mesh::read_model(path, scale, {});
     ASSERT_TRUE(model);
     const Hanging hanging(testing::surface_of(*model));
