@@ -69,8 +69,7 @@ Status check_enough(const std::vector<PointResult>& points, const std::string& n
       std::count_if(points.begin(), points.end(), [](const PointResult& p) { return p.is_used(); });
   std::string what = fmt::format(
       "{}: too few points: {} of {} can be used, and only {} of them are at least 1 mm apart on "
-      "the "
-      "film",
+      "the film",
       name, used, points.size(), found);
   if (const std::string why = main_reason(points); !why.empty()) {
     what += " (most of the others: " + why + ")";

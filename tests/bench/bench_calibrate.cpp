@@ -1,10 +1,5 @@
-<<<<<<< HEAD
 // Measures the accuracy of poses from depth frames with all camera errors, and checks their stated
 // covariance. bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
-=======
-// Measures the accuracy of poses from depth frames with all camera errors, and of their stated
-// covariance. Usage: bench_calibrate [POSES [FRAMES]]; defaults: 200 and 60.
->>>>>>> w-rg
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -157,13 +152,8 @@ Json json_of(const Figures& f) {
           {"seconds", p95(f.seconds)}};
 }
 
-<<<<<<< HEAD
 /// Returns a basis (columns) of the twists that the scan determines. `scale` converts a twist to mm
 /// of surface motion.
-=======
-/// Orthonormal basis of the motions that the scan determines, one per column. A motion is a twist
-/// multiplied by `scale`, in mm.
->>>>>>> w-rg
 Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6& scale) {
   const auto weak = static_cast<Eigen::Index>(fit.weak.size());
   Eigen::MatrixXd all(6, weak + 6);
@@ -227,13 +217,8 @@ Scene draw_scene(const Body& body, const Camera& camera, std::mt19937& random) {
   return out;
 }
 
-<<<<<<< HEAD
 /// Returns the RMS error of the film coordinates of points that this camera sees around the film.
 /// The errors of film frame and lens, which are strongly correlated, partly cancel in it.
-=======
-/// RMS error of the film coordinates of points that this camera sees around the film. It combines
-/// the errors of film frame and lens, which partly cancel because they are strongly correlated.
->>>>>>> w-rg
 double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF) {
   const scan::Lens truth = testing::lens_of(camera.truth);
   double squares = 0, count = 0;
@@ -252,11 +237,7 @@ double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF)
   return std::sqrt(squares / count);
 }
 
-<<<<<<< HEAD
 /// The result of a calibration from frames; without values if it is refused.
-=======
-/// Result of a calibration; frame and pose are empty if they were not found.
->>>>>>> w-rg
 struct Outcome {
   std::optional<registration::FilmFrame> frame;
   std::optional<registration::ObjectPose> pose;

@@ -36,12 +36,8 @@ struct Body {
   pipeline::DipOptions options;
 };
 
-<<<<<<< HEAD
 /// Returns the pose in which the model is rotated about the x axis and its bounding box is centred
 /// on the film.
-=======
-/// Pose of a model that is rotated about the x axis, with its bounding box centred on the film.
->>>>>>> w-rg
 Pose tilted(const mesh::Model& model, double angle_rad) {
   Pose X_FO(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX()));
   Eigen::AlignedBox3d box;

@@ -1,10 +1,5 @@
-<<<<<<< HEAD
 // Measures the drift of the position of a camera with all its errors, moved by hand for 10 s, and
 // the error of the fused surface. bench_sweep [CAMERAS [FRAMES]]: defaults 3 and 300.
-=======
-// Moves cameras with all their errors by hand for 10 s, and measures the drift of their position
-// and the error of the fused surface. Usage: bench_sweep [CAMERAS [FRAMES]]; defaults: 3 and 300.
->>>>>>> w-rg
 #include <sys/resource.h>
 
 #include <algorithm>

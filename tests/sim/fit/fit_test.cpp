@@ -193,7 +193,8 @@ TEST_F(Ball, TooFewPointsAndPointsOnOneSpotAreRefused) {
   const std::vector<Point> three(points->begin(), points->begin() + 3);
   const auto few = fitted({}, *scene, three);
   ASSERT_FALSE(few);
-  EXPECT_NE(few.error().message.find("3 of 3 can be used"), std::string::npos) << few.error().message;
+  EXPECT_NE(few.error().message.find("3 of 3 can be used"), std::string::npos)
+      << few.error().message;
   const auto spot = fitted({}, *scene, std::vector<Point>(100, points->front()));
   ASSERT_FALSE(spot);
   EXPECT_NE(spot.error().message.find("only 1 of them"), std::string::npos) << spot.error().message;
