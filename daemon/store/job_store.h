@@ -95,7 +95,7 @@ class JobStore {
   /// Returns artifacts with names after `after`, sorted by name.
   [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
                                                         int limit);
-  /// Returns one artifact; kNotFound, ARTIFACT_NOT_FOUND.
+  /// Returns one artifact; kNotFound, ARTIFACT_NOT_FOUND if the job has none with that name.
   [[nodiscard]] Result<Artifact> artifact(std::int64_t id, const std::string& name);
 
   /// Returns the events of one job after `seq`, oldest first; kOutOfRange, EVENTS_GONE if event

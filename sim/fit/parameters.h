@@ -24,7 +24,7 @@ struct Description {
   std::string name;       ///< "ink_ratio_mm", "drag_length_mm", "swelling_x", "swelling_y"
   std::string plausible;  ///< the plausible range as text, in the units of the profile
   double least = 0;       ///< lower bound, scaled: always 0
-  double most = 0;        ///< upper bound in profiles, scaled
+  double most = 0;        ///< upper bound that a profile may have, scaled
   double step = 0;        ///< step size for derivatives, scaled
 };
 

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kAround_mm = 0.5;  ///< free space on each side of a block
-constexpr double kLineStep = 2.8;   ///< distance of baselines, in heights of a lower-case x
+constexpr double kLineStep = 2.8;   ///< distance between baselines, in heights of a lower-case x
 /// Minimum width of a shortened block, in heights of a lower-case x.
 constexpr double kLeastWidth = 12;
 constexpr int kBisections = 12;

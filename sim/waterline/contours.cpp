@@ -13,8 +13,8 @@ int segment_of(int end) { return end / 2; }
 int opposite(int end) { return end ^ 1; }
 bool is_start(int end) { return end % 2 == 0; }
 
-/// Returns for each end the end that it meets on the same mesh edge; kNone if the surface is open
-/// there.
+/// Returns, for each end of a segment, the end that it meets on the same mesh edge; kNone at a
+/// boundary of the surface.
 std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
   struct End {
     std::uint64_t edge;

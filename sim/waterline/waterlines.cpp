@@ -14,7 +14,8 @@ namespace {
 
 /// Points within this distance of the film's edge count as having reached it.
 constexpr double kEdgeMargin_mm = 0.05;
-constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours do not cause more waterlines
+/// Smaller contours are ignored when deciding where to insert waterlines.
+constexpr double kLeastIsland_mm2 = 0.2;
 constexpr std::size_t kMostWaterlines = 3000;
 
 const Motion::Row* row_after(const Motion& motion, double immersion_mm) {
