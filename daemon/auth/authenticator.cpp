@@ -65,11 +65,11 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
 
 Status check_role(const auth::Caller& caller, auth::Role needed) {
   if (caller.role >= needed) return {};
-  auto refused =
-      fail(Code::kPermissionDenied,
-           caller.name + " has the role " + auth::name_of(caller.role) + ", but this requires " +
-               auth::name_of(needed) + "; ask an admin for that role",
-           "ROLE_TOO_LOW");
+  auto refused = fail(Code::kPermissionDenied,
+                      caller.name + " has the role " + auth::name_of(caller.role) +
+                          ", but this request requires the role " + auth::name_of(needed) +
+                          "; ask an admin for it",
+                      "ROLE_TOO_LOW");
   refused.value().metadata = {{"role", auth::name_of(caller.role)},
                               {"needed", auth::name_of(needed)}};
   return refused;
