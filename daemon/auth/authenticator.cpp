@@ -16,7 +16,7 @@ Result<std::string> claimed_name(const auth::Credentials& credentials) {
       std::all_of(owner.begin(), owner.end(), [](char c) { return c > ' ' && c < 0x7f; });
   if (owner.empty() || owner.size() > 64 || !printable) {
     return invalid_field("hydroprint-owner",
-                         "must be 1 to 64 printable ASCII characters without blanks");
+                         "must be 1 to 64 printable ASCII characters without spaces");
   }
   return owner;
 }

@@ -68,9 +68,9 @@ Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
   if (!(contact_mm - ways.clear_mm >= needed_mm)) {
     return out_of_reach(
         fmt::format(
-            "with first contact at {:g} mm, the object can rise less than {:g} mm above the water "
-            "before the limit of {:g} mm; mount the object higher in the gripper, so that the axis "
-            "is lower at first contact",
+            "with first contact at {:g} mm, the descent starts less than {:g} mm above the water, "
+            "too close for its acceleration (the axis ends at {:g} mm); mount the object higher in "
+            "the gripper, or set a larger clearance or a lower speed",
             contact_mm, needed_mm, range.low_mm),
         contact_mm, {range.low_mm + needed_mm, range.high_mm});
   }
