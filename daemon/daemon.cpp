@@ -124,7 +124,7 @@ Status Daemon::open_people(const Config& config) {
   if (!is_open && !accounts_->users().any()) {
     log(LogLevel::kWarning, "no_users",
         {{"message",
-          "accounts are required, but there is no user; start the daemon with --first-admin "
+          "accounts are required, but no user exists; start the daemon with --first-admin "
           "NAME"}});
   }
   return {};
@@ -139,9 +139,10 @@ Status Daemon::open_certificate(const Config& config) {
   if (is_within_ruleset(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
         {{"message",
-          fmt::format("{}: workers, which read untrusted files, can read the TLS key there; move "
-                      "it below /var/lib/hydroprint, or to another folder that they cannot read",
-                      config.server_tls_key)}});
+          fmt::format(
+              "{}: workers, which read untrusted files, can also read this TLS key; move the key "
+              "to /var/lib/hydroprint, or to another folder that workers cannot read",
+              config.server_tls_key)}});
   }
   return {};
 }
@@ -240,8 +241,8 @@ Status Daemon::start_serving(const Config& config) {
   if (!fences_work()) {
     log(LogLevel::kWarning, "files_not_fenced",
         {{"message",
-          "this kernel has no Landlock, so workers can read all files of this user; use another "
-          "kernel"}});
+          "this kernel has no Landlock, so workers can read all files of this user; use a kernel "
+          "with Landlock"}});
   }
   pool_->start();
   monitor_ = std::make_unique<RigMonitor>(*gateway_, *places_,

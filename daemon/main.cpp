@@ -165,8 +165,7 @@ int run_command(int argc, char** argv) {
   Options options;
   CLI::App app(
       "Keeps Hydroprint's job queue and runs its workers. Serves gRPC and HTTP on loopback "
-      "or, with TLS and "
-      "accounts, on other addresses.");
+      "or, with TLS and accounts, on other addresses.");
   app.name("hydroprintd");
   app.set_version_flag("--version", "hydroprintd " HYDROPRINT_VERSION);
   app.add_option("--config", options.config_file, "TOML file; default: built-in settings")
@@ -177,8 +176,8 @@ int run_command(int argc, char** argv) {
                  "~/.local/state/hydroprint")
       ->type_name("DIR");
   app.add_option("--grpc", options.grpc,
-                 "Address and port to listen on; default 127.0.0.1:50051; port 0: any; beyond "
-                 "loopback only with TLS and an admin who can sign in")
+                 "Address and port to listen on; default 127.0.0.1:50051; port 0: any free port; "
+                 "other addresses than loopback require TLS and an admin who can sign in")
       ->type_name("HOST:PORT");
   app.add_option("--http", options.http, "Same as --grpc, for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");

@@ -81,7 +81,7 @@ int run_command(int argc, char** argv) {
   ::umask(077);
   std::signal(SIGPIPE, SIG_IGN);
   Options options;
-  CLI::App app("Administration on the daemon's machine; hydroprint admin runs this");
+  CLI::App app("Administration on the daemon's machine, for hydroprint admin");
   app.name("hydroprintd admin");
   app.require_subcommand(1);
   CLI::App* const to_backup = add(app, "backup", "Write a backup of all data to one file", options);

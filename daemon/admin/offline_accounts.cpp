@@ -15,7 +15,7 @@ Result<std::unique_ptr<auth::Accounts>> accounts_of(State& state) {
 
 Status reset_password(State& state, const std::string& user, const std::string& password) {
   if (password.empty()) {
-    return fail(Code::kInvalidArgument, "the password is empty; use one of 10 bytes or more");
+    return fail(Code::kInvalidArgument, "the password is empty; use at least 10 bytes");
   }
   HP_ASSIGN_OR_RETURN(const auto accounts, accounts_of(state));
   HP_RETURN_IF_ERROR(accounts->users().set_password(user, password, ""));

@@ -33,7 +33,7 @@ Status check_is_mine(const std::filesystem::path& folder) {
   if (info.st_uid == ::geteuid()) return {};
   return fail(Code::kPermissionDenied,
               fmt::format("{0}: belongs to {1}, whose daemon must be able to use all files in it; "
-                          "run this as that user (sudo -u {1} ...)",
+                          "run this command as that user (sudo -u {1} ...)",
                           folder.string(), user_name(info.st_uid)));
 }
 
@@ -46,7 +46,7 @@ Result<State> open_state(const std::filesystem::path& root) {
         Code::kNotFound,
         state.layout.root.string() +
             ": not a state folder of hydroprintd, or not readable by this user; name the right "
-            "folder with --state-dir, and run this as the daemon's user");
+            "folder with --state-dir, and run this command as the daemon's user");
   }
   HP_RETURN_IF_ERROR(check_is_mine(state.layout.root));
   HP_RETURN_IF_ERROR(daemon::check_restored(state.layout));

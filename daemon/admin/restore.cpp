@@ -64,7 +64,7 @@ class Unpacked {
  private:
   tl::unexpected<Error> refused(const std::string& what) const {
     return fail(Code::kInvalidArgument,
-                fmt::format("{}: {}; nothing was restored", file_.string(), what));
+                fmt::format("{}: {}. Nothing was restored", file_.string(), what));
   }
 
   Status unpack() {
@@ -77,8 +77,8 @@ class Unpacked {
       HP_ASSIGN_OR_RETURN(const auto entry, in->next());
       if (!entry) return {};
       if (!entry->is_file || !is_name_of_ours(entry->name) || hashes_.contains(entry->name)) {
-        return refused(
-            fmt::format("holds \"{:.100}\", which is not part of a backup", one_line(entry->name)));
+        return refused(fmt::format("contains \"{:.100}\", which is not part of a backup",
+                                   one_line(entry->name)));
       }
       HP_RETURN_IF_ERROR(unpack_one(*in, *entry, meter));
     }
@@ -109,7 +109,7 @@ class Unpacked {
   Status check_manifest() {
     const auto path = folder_ / kManifestName;
     if (!hashes_.contains(kManifestName) || !hashes_.contains(kDatabaseName)) {
-      return refused("not a backup, or not a complete one");
+      return refused("not a complete backup");
     }
     std::string text(static_cast<std::size_t>(kLargestManifest), '\0');
     HP_ASSIGN_OR_RETURN(const auto in, daemon::open_file(path, O_RDONLY));
@@ -117,7 +117,9 @@ class Unpacked {
     text.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
     const auto manifest = parse_json(text).value_or(nlohmann::json());
     if (!manifest.is_object() || manifest.value("format", nlohmann::json()) != kBackupFormat) {
-      return refused("made by another version; use that version's hydroprintd");
+      return refused(
+          "its manifest has an unknown format; use the version of hydroprintd that made the "
+          "backup");
     }
     if (manifest.value("database_sha256", nlohmann::json()) != hashes_[kDatabaseName]) {
       return refused("damaged: the database does not match its hash");

@@ -108,8 +108,8 @@ class AssetService final : public v1::AssetService::Service {
     HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     v1::UploadChunkRequest chunk;
     if (!reader.Read(&chunk))
-      return invalid_field("upload",
-                           "is missing, because the stream has no messages; send at least one");
+      return invalid_field(
+          "upload", "is missing, because the stream has no messages; send at least one message");
     HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(chunk.upload()));
     HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.uploads, id, user.name));
     do {

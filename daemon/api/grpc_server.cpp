@@ -122,10 +122,12 @@ Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identit
   builder.RegisterCallbackGenericService(forwarder.get());
   server = builder.BuildAndStart();
   if (!server || port == 0) {
-    return fail(Code::kUnavailable,
-                fmt::format("cannot listen at {}: the address is in use, perhaps by another "
-                            "hydroprintd; stop that program or set another port with --grpc",
-                            wanted.text()));
+    return fail(
+        Code::kUnavailable,
+        fmt::format(
+            "cannot listen at {}: the address may be in use, perhaps by another hydroprintd, or "
+            "may not belong to this machine; stop that program or set another address with --grpc",
+            wanted.text()));
   }
   endpoint = {wanted.host, port};
   return {};

@@ -162,7 +162,7 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
     if (!v1::DipStatus::Step_IsValid(request.step()) ||
         request.step() == v1::DipStatus::STEP_UNSPECIFIED) {
-      return invalid_field("step", "is not a step of a dip");
+      return invalid_field("step", "must be a step of a dip, from PRINT_FILM to RETRACT");
     }
     HP_ASSIGN_OR_RETURN(const Lease lease, backend_.gateway.leases().require(request.lease_id()));
     return backend_.dips.confirm(id, static_cast<dip::Step>(request.step()), lease.holder);
@@ -190,7 +190,7 @@ class JobService final : public v1::JobService::Service {
   static Status check_may_retry(const Job& job, const JobKind& kind) {
     std::string why = kind.why_no_retry();
     if (!is_finished(job.state)) {
-      why = fmt::format("{}; wait for its end or cancel it", name_of(job.state));
+      why = fmt::format("{}; wait until it ends, or cancel it", name_of(job.state));
     }
     if (why.empty()) return {};
     return fail(Code::kFailedPrecondition, fmt::format("{} is {}", job_name(job.id), why),
@@ -203,7 +203,8 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     JobFilter filter;
     for (const int state : request.states()) {
-      if (!v1::Job::State_IsValid(state)) return invalid_field("states", "has an unknown state");
+      if (!v1::Job::State_IsValid(state))
+        return invalid_field("states", "contains an unknown state");
       filter.states.push_back(static_cast<JobState>(state));
     }
     filter.owner = request.owner();

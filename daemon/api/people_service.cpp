@@ -277,7 +277,8 @@ class PeopleService final : public v1::PeopleService::Service {
     const Status right = backend_.accounts.sessions().check_password(user.name, password,
                                                                      credentials_of(context).peer);
     if (right || right.error().code != Code::kUnauthenticated) return right;
-    return fail(Code::kPermissionDenied, "old_password: wrong password; ask an admin to reset it",
+    return fail(Code::kPermissionDenied,
+                "old_password: wrong password; if you have forgotten it, ask an admin to reset it",
                 "SIGN_IN_FAILED");
   }
 
@@ -336,7 +337,8 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
     const auto key = backend_.accounts.keys().get(id);
     if (!key || is_hidden(caller, key->user)) {
-      return fail(Code::kNotFound, request.name() + ": you have no such API key", "KEY_NOT_FOUND");
+      return fail(Code::kNotFound, request.name() + " does not exist, or belongs to another user",
+                  "KEY_NOT_FOUND");
     }
     return backend_.accounts.keys().remove(id);
   }
@@ -367,7 +369,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("sessions", request.name()));
     const auto session = backend_.accounts.sessions().get(id);
     if (!session || is_hidden(caller, session->user)) {
-      return fail(Code::kNotFound, request.name() + ": you have no such session",
+      return fail(Code::kNotFound, request.name() + " does not exist, or belongs to another user",
                   "SESSION_NOT_FOUND");
     }
     return backend_.accounts.sessions().end(id);

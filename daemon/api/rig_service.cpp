@@ -56,7 +56,7 @@ class RigService final
         before < kMaxRigWatches
             ? watch(*context, *request, *writer)
             : fail(Code::kResourceExhausted,
-                   "too many watches are open; get the rig instead, or try again later",
+                   "too many watches are open; poll the rig's state instead, or try again later",
                    "WATCHES_FULL");
     watches_.fetch_sub(1);
     return to_grpc(status);

@@ -86,7 +86,7 @@ Result<ApiKey> ApiKeys::get(const std::string& id) const {
   const std::lock_guard lock(rows_.memory);
   const auto found = rows_.keys.find(id);
   if (found == rows_.keys.end()) {
-    return fail(Code::kNotFound, "apiKeys/" + id + ": there is no such API key", "KEY_NOT_FOUND");
+    return fail(Code::kNotFound, "apiKeys/" + id + " does not exist", "KEY_NOT_FOUND");
   }
   return found->second;
 }

@@ -16,7 +16,7 @@ Result<std::string> claimed_name(const auth::Credentials& credentials) {
       std::all_of(owner.begin(), owner.end(), [](char c) { return c > ' ' && c < 0x7f; });
   if (owner.empty() || owner.size() > 64 || !printable) {
     return invalid_field("hydroprint-owner",
-                         "must be 1 to 64 printable ASCII characters without blanks");
+                         "must be 1 to 64 printable ASCII characters without spaces");
   }
   return owner;
 }
@@ -65,11 +65,11 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
 
 Status check_role(const auth::Caller& caller, auth::Role needed) {
   if (caller.role >= needed) return {};
-  auto refused =
-      fail(Code::kPermissionDenied,
-           caller.name + " has the role " + auth::name_of(caller.role) + ", but this requires " +
-               auth::name_of(needed) + "; ask an admin for that role",
-           "ROLE_TOO_LOW");
+  auto refused = fail(Code::kPermissionDenied,
+                      caller.name + " has the role " + auth::name_of(caller.role) +
+                          ", but this request requires the role " + auth::name_of(needed) +
+                          "; ask an admin for it",
+                      "ROLE_TOO_LOW");
   refused.value().metadata = {{"role", auth::name_of(caller.role)},
                               {"needed", auth::name_of(needed)}};
   return refused;

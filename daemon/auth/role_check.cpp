@@ -27,7 +27,7 @@ Result<RoleCheck> RoleCheck::make(const Authenticator& authenticator,
   for (const std::string& name : services) {
     const ServiceDescriptor* const service =
         google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
-    if (service == nullptr) return fail(Code::kInternal, name + ": there is no such service");
+    if (service == nullptr) return fail(Code::kInternal, name + ": unknown service");
     for (int i = 0; i < service->method_count(); ++i) {
       const MethodDescriptor& method = *service->method(i);
       HP_ASSIGN_OR_RETURN(const Need need, need_of(method));
@@ -42,7 +42,9 @@ Result<std::optional<auth::Caller>> RoleCheck::admit(std::string_view method,
                                                      const auth::Credentials& credentials) const {
   const auto found = rules_.find(method);
   if (found == rules_.end()) {
-    return fail(Code::kUnimplemented, "this daemon has no such method", "METHOD_NOT_FOUND");
+    return fail(Code::kUnimplemented,
+                "the daemon does not have this method; check its name, or update the daemon",
+                "METHOD_NOT_FOUND");
   }
   const auto& [need, stops_motion] = found->second;
   auto caller = authenticator_->caller(credentials);

@@ -60,7 +60,9 @@ Status Sessions::check_password(const std::string& name, const std::string& pass
     if (const User* const user = rows_.admitted(name)) hashed = user->password;
   }
   HP_ASSIGN_OR_RETURN(const bool right, passwords_.check(password, hashed));
-  if (!right) return sign_in_failed("the name or the password is wrong; ask an admin for a link");
+  if (!right)
+    return sign_in_failed(
+        "the name or the password is wrong; try again, or ask an admin for a sign-in link");
   attempts_.succeeded(key, peer);
   return {};
 }
@@ -100,7 +102,7 @@ Result<SignedIn> Sessions::sign_in_by_link(const std::string& token, const std::
   if (!user || user->disabled) {
     attempts_.reject();
     return sign_in_failed(
-        "the link was used or replaced, or has expired; ask an admin for another");
+        "the link was used or replaced, or has expired; ask an admin for another link");
   }
   HP_RETURN_IF_ERROR(rows_.database.run("DELETE FROM sign_in_links WHERE token_hash=?", {hash}));
   return begin(*user, peer);
@@ -162,8 +164,7 @@ Result<Session> Sessions::get(const std::string& id) const {
   for (const auto& [hash, session] : rows_.sessions) {
     if (session.id == id && is_valid(session)) return session;
   }
-  return fail(Code::kNotFound, "sessions/" + id + ": there is no such session",
-              "SESSION_NOT_FOUND");
+  return fail(Code::kNotFound, "sessions/" + id + " does not exist", "SESSION_NOT_FOUND");
 }
 
 Status Sessions::end(const std::string& id) {

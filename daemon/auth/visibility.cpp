@@ -104,12 +104,12 @@ bool may_see(const Caller& caller, const Job& job) {
 
 Status check_may_see(const Caller& caller, const Job& job) {
   if (may_see(caller, job)) return {};
-  return not_yours(caller, job, "ask them to share it");
+  return not_yours(caller, job, "ask the owner to share the job");
 }
 
 Status check_may_change(const Caller& caller, const Job& job) {
   if (is_theirs(caller, job.definition.owner)) return {};
-  return not_yours(caller, job, "ask them or an operator to do this");
+  return not_yours(caller, job, "ask the owner or an operator to do this");
 }
 
 v1::Job shown_to(const Caller& caller, const Job& job) {

@@ -125,7 +125,7 @@ std::optional<Result<LivePicture>> LiveCamera::available_answer(Time now) const 
   if (reserved_for_ != 0) {
     const std::string job = job_name(reserved_for_);
     return tl::unexpected(Error{Code::kAborted,
-                                job + " is using the camera; try again when it has ended",
+                                job + " is using the camera; try again when the job has ended",
                                 "CAMERA_BUSY",
                                 {{"job", job}}});
   }

@@ -38,9 +38,8 @@ Status check_exposure(const Config& config) {
   if (!exposed_address || has_certificate) return {};
   return fail(Code::kInvalidArgument,
               *exposed_address +
-                  " is beyond loopback, which requires TLS; name a certificate and its key with "
-                  "--tls-certificate FILE --tls-key FILE (deploy/README.md explains how to "
-                  "get them), or use 127.0.0.1 or [::1]",
+                  " is not a loopback address, so TLS is required; set --tls-certificate FILE and "
+                  "--tls-key FILE (see deploy/README.md), or use 127.0.0.1 or [::1]",
               "CONFIG_INVALID");
 }
 
@@ -49,12 +48,11 @@ Status check_admin(const Config& config, auth::Accounts& accounts) {
   if (!exposed_address) return {};
   HP_ASSIGN_OR_RETURN(const bool has_admin, accounts.has_admin_who_can_sign_in());
   if (has_admin) return {};
-  return fail(
-      Code::kFailedPrecondition,
-      *exposed_address +
-          " is beyond loopback, but there is no admin yet who can sign in; start the daemon once "
-          "with --first-admin NAME, and set a password at the link that it prints",
-      "SIGN_IN_NEEDED");
+  return fail(Code::kFailedPrecondition,
+              *exposed_address +
+                  " is not a loopback address, but no admin can sign in yet; start the daemon once "
+                  "with --first-admin NAME, open the link that it prints, and set a password",
+              "SIGN_IN_NEEDED");
 }
 
 }  // namespace hydroprint::daemon

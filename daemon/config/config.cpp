@@ -120,7 +120,7 @@ std::string remedy(const Length& length) { return number_remedy(length.min, leng
 std::string remedy(const Flag&) { return "true or false"; }
 std::string remedy(const Text& text) {
   if (text.allowed.empty()) return "text in quotes";
-  return fmt::format("one of \"{}\"", fmt::join(text.allowed, "\" \""));
+  return fmt::format("one of \"{}\"", fmt::join(text.allowed, "\", \""));
 }
 std::string remedy(const Key& key) {
   return std::visit([](const auto& kind) { return remedy(kind); }, key.kind);
@@ -276,9 +276,9 @@ Result<Config> read_config(const std::filesystem::path& path) {
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file || std::filesystem::is_directory(path)) {
-    return fail(
-        Code::kNotFound,
-        path.string() + ": cannot be read; pass --config an existing TOML file, or leave it out");
+    return fail(Code::kNotFound,
+                path.string() +
+                    ": cannot be read; pass an existing TOML file to --config, or omit --config");
   }
   return parse_config(text.str(), path.string());
 }
@@ -300,14 +300,14 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   };
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) {
-    return refused("has no port; write it like 127.0.0.1:50051");
+    return refused("has no port; write an address like 127.0.0.1:50051");
   }
   Endpoint endpoint;
   const std::string_view port = text.substr(colon + 1);
   const auto parsed = std::from_chars(port.data(), port.data() + port.size(), endpoint.port);
   if (parsed.ec != std::errc() || parsed.ptr != port.data() + port.size() || endpoint.port < 0 ||
       endpoint.port > 65535) {
-    return refused("must have a port from 0 to 65535; write it like 127.0.0.1:50051");
+    return refused("must have a port from 0 to 65535; write an address like 127.0.0.1:50051");
   }
   std::string host(text.substr(0, colon));
   if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
@@ -318,8 +318,8 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   in6_addr v6{};
   if (inet_pton(AF_INET, host.c_str(), &v4) != 1 && inet_pton(AF_INET6, host.c_str(), &v6) != 1) {
     return refused(
-        "has no IP address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all "
-        "addresses of this machine, or one of these addresses");
+        "does not begin with an IP address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] "
+        "for all addresses of this machine, or a single address of this machine");
   }
   endpoint.host = host;
   return endpoint;

@@ -30,11 +30,12 @@ class ReportReader {
       if (value >= least && value <= most) return value;
     }
     if (status_) {
-      status_ = fail(Code::kFailedPrecondition,
-                     fmt::format("the simulation's {}: {} is not a number from {:g} to {:g}; "
-                                 "simulate again, or set all of its values in the dip's spec",
-                                 kReport, pointer, least, most),
-                     "STATE_FORBIDS");
+      status_ = fail(
+          Code::kFailedPrecondition,
+          fmt::format("{} of the simulation: {} is not a number from {:g} to {:g}; "
+                      "simulate again, or set all values taken from this file in the dip's spec",
+                      kReport, pointer, least, most),
+          "STATE_FORBIDS");
     }
     return 0;
   }
@@ -120,11 +121,12 @@ Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout&
                         simulated_dip(spec.simulate_job(), jobs, layout));
     fill_from(simulated, plan);
     if (spec.has_depth_mm() && spec.depth_mm() > simulated.depth_mm) {
-      plan.warnings.push_back({"deeper_than_simulated",
-                               fmt::format("the dip is deeper than the simulated {:g} mm; the film "
-                                           "beyond that depth was not computed",
-                                           simulated.depth_mm),
-                               spec.simulate_job()});
+      plan.warnings.push_back(
+          {"deeper_than_simulated",
+           fmt::format("the dip is deeper than the simulated {:g} mm; the film image "
+                       "was not computed for greater depths",
+                       simulated.depth_mm),
+           spec.simulate_job()});
     }
   }
   fill_from(spec, plan);

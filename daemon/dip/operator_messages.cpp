@@ -71,24 +71,23 @@ std::string advice(Step step) {
   switch (step) {
     case Step::kPrintFilm:
     case Step::kLoadObject:
-      return "nothing is in the water: keep the film dry, it can be used for another dip";
+      return "nothing is in the water; keep the film dry for another dip";
     case Step::kFindContact:
-      return "jog the object up before you reach for it; keep the film dry, it can be used for "
-             "another dip";
+      return "jog the object up before you reach for it; keep the film dry for another dip";
     case Step::kClear:
       return "the object is just above the water: move it up before you reach for it; keep the "
-             "film dry, it can be used for another dip";
+             "film dry for another dip";
     case Step::kLayFilm:
       return "if the film is on the water already, take it off and throw it away; the object is "
-             "clean, move it up and take it out";
+             "clean: move it up and take it out";
     case Step::kSoak:
     case Step::kSprayActivator:
       return "the film is wet and cannot be used again: take it off the water and throw it away; "
-             "the object is clean, move it up and take it out";
+             "the object is clean: move it up and take it out";
     case Step::kActivate:
     case Step::kStartDip:
       return "the film is activated and cannot be used again: skim it off the water, with gloves; "
-             "the object is clean, move it up and take it out";
+             "the object is clean: move it up and take it out";
     case Step::kDescend:
       return "the object hangs where it stopped, perhaps half in the film: skim the rest of the "
              "film off the water first, then move the object up slowly and wash the print off "
@@ -105,7 +104,8 @@ std::string advice(Step step) {
 
 std::string late_words(double since_sprayed_s, const Clocks& clocks) {
   return fmt::format(
-      "activated {:.0f} s ago, but the film stays good for only {:.0f} s: expect a poor print",
+      "the film was activated {:.0f} s ago, but stays usable for only {:.0f} s: expect a poor "
+      "print",
       since_sprayed_s, clocks.activator_wait_s + clocks.activation_window_s);
 }
 

@@ -56,20 +56,21 @@ Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
   Ways ways;
   ways.bottom_mm = contact_mm + plan.depth_mm;
   if (!(ways.bottom_mm <= range.high_mm)) {
-    return out_of_reach(fmt::format("from first contact at {:g} mm a depth of {:g} mm ends at {:g} "
-                                    "mm, beyond the limit of {:g} mm; mount the object lower in "
-                                    "the gripper, or dip less deep",
-                                    contact_mm, plan.depth_mm, ways.bottom_mm, range.high_mm),
-                        ways.bottom_mm, range);
+    return out_of_reach(
+        fmt::format("with first contact at {:g} mm, a depth of {:g} mm ends at {:g} "
+                    "mm, which exceeds the limit of {:g} mm; mount the object lower in "
+                    "the gripper, or dip less deep",
+                    contact_mm, plan.depth_mm, ways.bottom_mm, range.high_mm),
+        ways.bottom_mm, range);
   }
   ways.clear_mm = std::max(contact_mm - plan.clearance_mm, range.low_mm);
   const double needed_mm = run_up_mm(plan, profile);
   if (!(contact_mm - ways.clear_mm >= needed_mm)) {
     return out_of_reach(
         fmt::format(
-            "first contact at {:g} mm leaves less than {:g} mm above the water before the limit of "
-            "{:g} mm; mount the object higher in the gripper, so that the axis is lower at first "
-            "contact",
+            "with first contact at {:g} mm, the descent starts less than {:g} mm above the water, "
+            "too close for its acceleration (the axis ends at {:g} mm); mount the object higher in "
+            "the gripper, or set a larger clearance or a lower speed",
             contact_mm, needed_mm, range.low_mm),
         contact_mm, {range.low_mm + needed_mm, range.high_mm});
   }

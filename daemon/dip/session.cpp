@@ -135,11 +135,12 @@ Status DipSession::feed(Event event) {
   event.position_mm = is_measured ? *facts_.plan.contact_mm : rig().snapshot().position_mm;
   const dip::Outcome outcome = dip::proceed(stand_, event, facts_.plan.clocks);
   if (outcome.refused) {
-    return tl::unexpected(Error{Code::kFailedPrecondition,
-                                fmt::format("{} is at {}, not waiting for {}; see its dip_status",
-                                            facts_.job, name(stand_.step), name(event.step)),
-                                "STATE_FORBIDS",
-                                {{"step", std::string(name(stand_.step))}}});
+    return tl::unexpected(
+        Error{Code::kFailedPrecondition,
+              fmt::format("{} is in step {} and does not wait for {}; see dip_status of the job",
+                          facts_.job, name(stand_.step), name(event.step)),
+              "STATE_FORBIDS",
+              {{"step", std::string(name(stand_.step))}}});
   }
   HP_RETURN_IF_ERROR(act(outcome.action, outcome.next));
   adopt(outcome.next);
@@ -373,12 +374,13 @@ std::string DipSession::end_words() const {
     case Ending::kSucceeded:
       return dip::afterwards();
     case Ending::kCancelled:
-      return fmt::format("ended on request in {}: {}", name(stand_.step), dip::advice(stand_.step));
+      return fmt::format("ended on request during {}: {}", name(stand_.step),
+                         dip::advice(stand_.step));
     case Ending::kInterrupted:
-      return fmt::format("the daemon was shut down in {}: {}", name(stand_.step),
+      return fmt::format("the daemon was shut down during {}: {}", name(stand_.step),
                          dip::advice(stand_.step));
     default:
-      return fmt::format("{}; in {}: {}", failure_ ? failure_->message : "the rig failed",
+      return fmt::format("{}; during {}: {}", failure_ ? failure_->message : "the rig failed",
                          name(stand_.step), dip::advice(stand_.step));
   }
 }
@@ -432,7 +434,7 @@ Status end_lost_dips(DeviceJobs& jobs, const Layout& layout) {
     const auto step = static_cast<Step>(
         std::clamp<int>(status.step(), static_cast<int>(Step::kPrintFilm), dip::kSteps));
     const std::string words =
-        fmt::format("the daemon was restarted in {}: {}", name(step), dip::advice(step));
+        fmt::format("the daemon was restarted during {}: {}", name(step), dip::advice(step));
     status.set_instruction(dip::advice(step));
     status.clear_step_end_time();
     std::vector<Artifact> record;

@@ -49,7 +49,7 @@ DownloadPlan plan_download(const Head& head, const v1::Artifact& artifact, bool 
   if (out.range.kind == ByteRange::Kind::kNone) {
     out.response = refusal(
         {Code::kOutOfRange,
-         fmt::format("the artifact has {} bytes; the requested range is beyond its end", size),
+         fmt::format("the artifact has {} bytes; the requested range contains none of them", size),
          "RANGE_UNSATISFIABLE",
          {}},
         416);

@@ -62,8 +62,8 @@ std::optional<Response> refused_framing(const ServerContext& server, const Head&
   if (head.has_known_end() || server.transcoder.stops_motion(head.method, head.target)) return {};
   const bool is_unknown = head.framing == BodyFraming::kUnknownCoding;
   return refusal({is_unknown ? Code::kUnimplemented : Code::kInvalidArgument,
-                  "Transfer-Encoding must be only \"chunked\", in HTTP/1.1 and without "
-                  "Content-Length; or send only Content-Length",
+                  "Transfer-Encoding is allowed only as \"chunked\", in HTTP/1.1 and without "
+                  "Content-Length; otherwise send only Content-Length",
                   "REQUEST_MALFORMED",
                   {}},
                  is_unknown ? 501 : 400);
@@ -79,13 +79,14 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
                     {}});
   }
   if (hosts == 1 && !is_ours(server.options, *head.fields.find("Host"))) {
-    return refusal({Code::kPermissionDenied,
-                    fmt::format("unknown host name \"{}\"; use a name in the server's certificate, "
-                                "or 127.0.0.1 on its own machine, or add it to server.host_names",
-                                rest::plain(*head.fields.find("Host"))),
-                    "HOST_UNKNOWN",
-                    {}},
-                   421);
+    return refusal(
+        {Code::kPermissionDenied,
+         fmt::format("unknown host name \"{}\"; use a name from the server's certificate (or "
+                     "127.0.0.1 on the server itself), or add this name to server.host_names",
+                     rest::plain(*head.fields.find("Host"))),
+         "HOST_UNKNOWN",
+         {}},
+        421);
   }
   if (!is_safe(head.method) && comes_from_elsewhere(head, is_secure)) {
     return refusal(

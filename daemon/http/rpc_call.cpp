@@ -50,7 +50,7 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   const std::string allowed = allowed_at(server, exchange.head().target);
   if (allowed.empty()) {
     response = refusal({Code::kNotFound,
-                        "there is no endpoint at this path; see /openapi.json",
+                        "no endpoint exists at this path; see /openapi.json",
                         "ROUTE_NOT_FOUND",
                         {}});
   } else {

@@ -30,8 +30,8 @@ Status check_csrf(const Head& head) {
   const std::string wanted = auth::csrf_token(*session);
   if (auth::equal_in_constant_time(head.fields.find(kCsrfHeader).value_or(""), wanted)) return {};
   return fail(Code::kPermissionDenied,
-              fmt::format("requests that change something with a session need the header {}, which "
-                          "/v1/session returns; reload the page",
+              fmt::format("requests that make changes with a session require the header {}; reload "
+                          "the page, or use the value that /v1/session returns",
                           kCsrfHeader),
               "CSRF_TOKEN_MISSING");
 }

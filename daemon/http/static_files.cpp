@@ -54,7 +54,7 @@ Result<std::string> read_all(const fs::path& path) {
   std::string content{std::istreambuf_iterator<char>(file), {}};
   if (file.bad() || !file.is_open()) {
     return fail(Code::kPermissionDenied,
-                path.string() + ": cannot be read; make server.web_dir's files readable");
+                path.string() + ": cannot be read; make the files in server.web_dir readable");
   }
   return content;
 }

@@ -17,11 +17,11 @@ constexpr const char* kActive = "calibrations/active";
 constexpr double kSamePlace_mm = 0.3;
 
 tl::unexpected<Error> missing(const std::string& name, const std::string& field) {
-  return tl::unexpected(
-      Error{Code::kFailedPrecondition,
-            fmt::format("{}: {} does not exist; calibrate, or name another one", field, name),
-            "CALIBRATION_MISSING",
-            {{"calibration", name}}});
+  return tl::unexpected(Error{
+      Code::kFailedPrecondition,
+      fmt::format("{}: {} does not exist; calibrate, or name another calibration", field, name),
+      "CALIBRATION_MISSING",
+      {{"calibration", name}}});
 }
 
 std::string words_of(Staleness why, const v1::Calibration& calibration) {
@@ -88,7 +88,8 @@ Result<Calibration> needed_calibration(const std::string& name, const std::strin
   auto found = find_calibration(name, calibrations);
   if (!found && found.error().reason == "CALIBRATION_NOT_FOUND") return missing(name, field);
   if (found && found->definition.kind != CalibrationKind::kObject) {
-    return invalid_field(field, "names the calibration of a camera; name one of an object");
+    return invalid_field(field,
+                         "names the calibration of a camera; name the calibration of an object");
   }
   return found;
 }
@@ -105,8 +106,9 @@ Objection objection(const v1::Calibration& calibration, const v1::InputFile& mes
     out.add(words_of(stale, calibration), v1::Calibration::Staleness_Name(stale));
   }
   if (!mesh.asset().empty() && mesh.asset() != calibration.mesh().asset()) {
-    out.add(fmt::format("it belongs to another object ({})", calibration.mesh().name()),
-            "OTHER_OBJECT");
+    out.add(
+        fmt::format("the calibration belongs to another object ({})", calibration.mesh().name()),
+        "OTHER_OBJECT");
   }
   return out;
 }

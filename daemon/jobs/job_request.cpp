@@ -23,7 +23,7 @@ Status check_all_fields(const JobKind& kind, const v1::Job& job, const Message& 
   filled.GetReflection()->MutableMessage(&filled, &kind.field())->CopyFrom(resolved);
   HP_RETURN_IF_ERROR(check_fields(filled));
   if (!job.labels().contains("")) return {};
-  return invalid_field("labels", "have an empty key");
+  return invalid_field("labels", "have an empty key; give each label a key");
 }
 
 /// Removes the number of threads from the spec and returns it. It is an option of the pool and does

@@ -44,8 +44,8 @@ Result<EarlierSimulation> earlier_simulation(const std::string& name, const std:
 Result<std::string> report_of(const Job& job, const Layout& layout) {
   auto report = read_text_file(layout.artifacts(job.id) / "report.json", kLargestReport);
   if (report) return report;
-  return fail(Code::kFailedPrecondition, job_name(job.id) + " has no usable report.json; retry it",
-              "STATE_FORBIDS");
+  return fail(Code::kFailedPrecondition,
+              job_name(job.id) + " has no usable report.json; retry that job", "STATE_FORBIDS");
 }
 
 }  // namespace hydroprint::daemon

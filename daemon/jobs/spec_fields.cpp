@@ -9,9 +9,10 @@ namespace hydroprint::daemon {
 Status check_frames(const std::string& kind, const InputFiles& frames, int most_views) {
   const int views = count_views(frames);
   if (views == 0) {
-    return invalid_field(kind + ".frames",
-                         "have no FOLDER/frames.json; name captures, or upload the files that "
-                         "hydroprint-capture writes");
+    return invalid_field(
+        kind + ".frames",
+        "do not include FOLDER/frames.json; name captures, or upload the files that "
+        "hydroprint-capture writes");
   }
   if (views <= most_views) return {};
   return invalid_field(kind + ".frames",

@@ -36,8 +36,9 @@ template <class Spec>
 template <class Spec>
 [[nodiscard]] Status check_inertia(const std::string& kind, const Spec& spec) {
   if (!spec.inertia() || spec.model() != v1::MODEL_STOKES) return {};
-  return invalid_field(kind + ".inertia",
-                       "Stokes flow has no inertia; leave it out, or set the model to sheet");
+  return invalid_field(
+      kind + ".inertia",
+      "Stokes flow has no inertia; leave this field out, or set the model to sheet");
 }
 
 /// Checks that the margins leave space for printing.

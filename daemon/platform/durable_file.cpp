@@ -34,7 +34,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
                 "DISK_FULL");
   }
   return fail(Code::kInternal,
-              fmt::format("{}{}; check the state folder's disk and permissions", text,
+              fmt::format("{}{}; check the permissions, the disk and the resource limits", text,
                           std::generic_category().message(error)),
               "STORE_FAILED");
 }

@@ -70,8 +70,8 @@ Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) 
   Warnings out;
   if (!printer.papers.empty() && !has_paper(printer, plan.paper_mm)) {
     out.push_back({"paper_not_listed",
-                   fmt::format("the printer does not list paper of {:g} x {:g} mm; set it up "
-                               "there, and measure the rulers on the printed page",
+                   fmt::format("the printer does not list paper of {:g} x {:g} mm; set up this "
+                               "size at the printer, and measure the rulers on the printed page",
                                plan.paper_mm.x(), plan.paper_mm.y()),
                    "printer"});
   }
@@ -79,10 +79,10 @@ Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) 
   if (margin_mm > plan.margin_mm + kSameMargin_mm) {
     out.push_back(
         {"printer_margin",
-         fmt::format(
-             "the printer cannot print up to {:g} mm at the paper's edges, but print-image assumed "
-             "{:g} mm; the difference is not printed. Run print-image with --printer-margin-mm",
-             margin_mm, plan.margin_mm),
+         fmt::format("the printer cannot print the outer {:g} mm of the paper, but print-image "
+                     "assumed a margin of {:g} mm; the difference is not printed. Run print-image "
+                     "with the printer's margin (--printer-margin-mm)",
+                     margin_mm, plan.margin_mm),
          plan.print_image_job});
   }
   return out;

@@ -82,12 +82,12 @@ Status read_path_fields(const pb::MethodDescriptor& method, Route& route) {
 Status read_body(const pb::MethodDescriptor& method, const std::string& body, Route& route) {
   if (body.empty()) return {};
   if (route.http_method == "GET" || route.http_method == "DELETE") {
-    return refuse(method, route.http_method + " has no body");
+    return refuse(method, route.http_method + " must not have a body");
   }
   route.body = body == "*" ? Body::kAll : Body::kField;
   if (route.body == Body::kAll) return {};
   route.body_field = method.input_type()->FindFieldByName(body);
-  if (route.body_field == nullptr) return refuse(method, "there is no field " + body);
+  if (route.body_field == nullptr) return refuse(method, body + " is not a field of the request");
   const bool is_object = route.body_field->message_type() != nullptr &&
                          !route.body_field->is_repeated() &&
                          !is_written_as_value(*route.body_field);
@@ -118,7 +118,7 @@ Result<Route> read_rule(const pb::MethodDescriptor& method, const HttpRule& rule
   Route route;
   route.method = &method;
   auto [http_method, path] = pattern_of(rule);
-  if (http_method.empty()) return refuse(method, "no GET, PUT, POST, DELETE or PATCH");
+  if (http_method.empty()) return refuse(method, "the rule has no GET, PUT, POST, DELETE or PATCH");
   if (!rule.response_body().empty()) return refuse(method, "response_body is not supported");
   route.http_method = http_method;
   auto parsed = parse_template(path);
@@ -140,7 +140,7 @@ Status read_method(const pb::MethodDescriptor& method, std::vector<Route>& route
     HP_ASSIGN_OR_RETURN(Route route, read_rule(method, *rule));
     for (const Route& other : routes) {
       if (other.http_method == route.http_method && overlap(other.path, route.path)) {
-        return refuse(method, "a path matches " + other.method->full_name() + " as well");
+        return refuse(method, "its path also matches requests for " + other.method->full_name());
       }
     }
     routes.push_back(std::move(route));
@@ -172,7 +172,7 @@ std::string rpc_name(const pb::MethodDescriptor& method) {
 }
 
 Result<std::vector<Route>> read_routes(const std::vector<std::string>& services) {
-  if (services.empty()) return fail(Code::kInternal, "there are no services");
+  if (services.empty()) return fail(Code::kInternal, "no services are given");
   std::vector<Route> routes;
   for (const std::string& name : services) {
     const auto* service = pb::DescriptorPool::generated_pool()->FindServiceByName(name);
@@ -210,7 +210,7 @@ Result<FieldPath> find_field(const pb::Descriptor& message, std::string_view pat
     }
     if (!more) break;
     if (field->message_type() == nullptr || field->is_repeated() || is_written_as_value(*field)) {
-      return fail(Code::kInvalidArgument, field->name() + " has no fields to name");
+      return fail(Code::kInvalidArgument, field->name() + " has no fields that a URL can set");
     }
     inside = field->message_type();
   }

@@ -190,7 +190,7 @@ std::vector<std::string> Transcoder::methods_at(std::string_view target) const {
 
 Result<std::string> Transcoder::write(std::string_view method, std::string_view response) const {
   const pb::MethodDescriptor* called = impl_->method(method);
-  if (called == nullptr) return fail(Code::kInternal, plain(method) + ": there is no such method");
+  if (called == nullptr) return fail(Code::kInternal, plain(method) + ": unknown method");
   const MessagePtr message = parsed(*called->output_type(), response);
   if (message == nullptr) {
     return fail(Code::kInternal, called->full_name() + ": the response cannot be parsed");

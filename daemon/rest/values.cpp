@@ -144,8 +144,7 @@ Status set_from_text(pb::Message& message, const FieldPath& path, const std::str
   for (const pb::FieldDescriptor* field : path) {
     if (const auto* other = rival(*inside, *field)) {
       return bad_parameter(
-          name,
-          fmt::format("excludes {}, which is also given; give only one of them", other->name()));
+          name, fmt::format("cannot be combined with {}; give only one of them", other->name()));
     }
     if (field != &last) inside = inside->GetReflection()->MutableMessage(inside, field);
   }

@@ -31,11 +31,11 @@ tl::unexpected<Error> is_held(const Lease& lease) {
 
 tl::unexpected<Error> is_required(const std::optional<Lease>& held) {
   Error error{Code::kFailedPrecondition,
-              "commands to the rig require its lease; acquire it first",
+              "commands to the rig require its lease; acquire the lease first",
               "LEASE_REQUIRED",
               {}};
   if (held) {
-    error.message += fmt::format("; now {} holds it until {} ({})", held->holder,
+    error.message += fmt::format("; currently {} holds the lease until {} ({})", held->holder,
                                  time_text(held->expire_ms), held->purpose);
     describe(*held, error);
   }

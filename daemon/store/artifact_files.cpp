@@ -14,9 +14,10 @@ namespace {
 constexpr std::size_t kMostArtifacts = 1000;
 
 tl::unexpected<Error> unusable(const std::string& what) {
-  return fail(Code::kInternal,
-              "the worker left " + what + "; check that workers.program is hydroprint-worker",
-              "WORKER_UNUSABLE");
+  return fail(
+      Code::kInternal,
+      "the worker's output contains " + what + "; check that workers.program is hydroprint-worker",
+      "WORKER_UNUSABLE");
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs
     const auto asset = layout.asset(input.sha256);
     if (!std::filesystem::exists(asset)) {
       return fail(Code::kFailedPrecondition,
-                  input.name + ": assets/" + input.sha256 + " is missing; upload it again",
+                  input.name + ": assets/" + input.sha256 + " is missing; upload the file again",
                   "ASSET_MISSING");
     }
     HP_RETURN_IF_ERROR(make_folder((folder / input.name).parent_path()));
@@ -68,7 +69,7 @@ Result<std::vector<Artifact>> publish_artifacts(const std::filesystem::path& fro
     struct stat info {};
     const bool plain = ::lstat(entry.path().c_str(), &info) == 0 && S_ISREG(info.st_mode) &&
                        info.st_nlink == 1 && check_file_name("artifact", name);
-    if (!plain) return unusable("something that is not a regular file");
+    if (!plain) return unusable("something other than regular files with plain names");
     if (artifacts.size() == kMostArtifacts) return unusable("too many files");
     HP_ASSIGN_OR_RETURN(std::string hash, sha256_of_file(entry.path()));
     HP_RETURN_IF_ERROR(sync_path(entry.path()));

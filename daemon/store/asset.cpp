@@ -7,7 +7,7 @@ namespace hydroprint::daemon {
 tl::unexpected<Error> asset_missing(const InputFile& input) {
   auto error = fail(
       Code::kFailedPrecondition,
-      fmt::format("{}: assets/{} is not on the daemon; upload it first", input.name, input.sha256),
+      fmt::format("{}: assets/{} does not exist; upload the file first", input.name, input.sha256),
       "ASSET_MISSING");
   error.value().metadata["asset"] = "assets/" + input.sha256;
   return error;

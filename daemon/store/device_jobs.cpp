@@ -23,7 +23,7 @@ Status check_none_open(Database& database, const std::string& verb) {
   const std::string name = job_name(open.front());
   return tl::unexpected(Error{
       Code::kFailedPrecondition,
-      fmt::format("the {} {} is not finished; wait for its end or cancel it first", verb, name),
+      fmt::format("the {} {} is not finished; wait until it ends, or cancel it first", verb, name),
       "STATE_FORBIDS",
       {{verb, name}}});
 }

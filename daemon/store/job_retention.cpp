@@ -28,7 +28,7 @@ void log_jump(std::int64_t jump_ms) {
       {{"by_s", jump_ms / 1000},
        {"message",
         "the daemon was off for more than a day, or the clock was set; all retention "
-        "times were shifted by the same amount"}});
+        "times were shifted by that time (by_s)"}});
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ Status JobRetention::purge_one(std::int64_t id) {
   if (!is_gone) return {};
   discard(layout_.artifacts(id));
   log(LogLevel::kInfo, "job_deleted",
-      {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its retention time was over"}});
+      {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its retention time is over"}});
   changes_.notifier().ring();
   return {};
 }

@@ -92,7 +92,7 @@ Result<std::vector<Job>> select_jobs(Database& database, const std::string& wher
 Result<Job> select_job(Database& database, std::int64_t id) {
   HP_ASSIGN_OR_RETURN(auto jobs, select_jobs(database, "WHERE id=?", {id}));
   if (jobs.empty()) {
-    return fail(Code::kNotFound, job_name(id) + ": there is no such job", "JOB_NOT_FOUND");
+    return fail(Code::kNotFound, job_name(id) + " does not exist", "JOB_NOT_FOUND");
   }
   Job job = std::move(jobs.front());
   HP_RETURN_IF_ERROR(

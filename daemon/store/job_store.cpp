@@ -198,7 +198,7 @@ Status JobStore::remove(std::int64_t id) {
     HP_ASSIGN_OR_RETURN(const std::int64_t calibration, calibration_of_job(database_, id));
     if (calibration != 0) {
       return state_forbids(
-          job, "delete " + calibration_name(calibration) + ", which it produced, first");
+          job, "delete " + calibration_name(calibration) + ", which this job produced, first");
     }
     return database_.run("DELETE FROM jobs WHERE id=?", {id});
   });
@@ -303,8 +303,8 @@ Status JobStore::queue_again(std::int64_t id, Interruption why) {
           Code::kInternal,
           fmt::format(
               "the daemon was killed, or its machine crashed, {} times while this job ran, so "
-              "the job is not tried again; check the daemon's log, and retry the job if it "
-              "was not the cause",
+              "it was not started again; check the daemon's log, and retry the job if the job was "
+              "not the cause",
               kMostLosses),
           "DAEMON_LOST",
           {}};
@@ -360,7 +360,7 @@ Status JobStore::check_was_given(std::int64_t seq) {
   HP_ASSIGN_OR_RETURN(const std::int64_t newest, last_seq());
   if (seq >= 0 && seq <= newest) return {};
   return fail(Code::kOutOfRange,
-              fmt::format("after_seq: this store has never had event {}; get the job again and "
+              fmt::format("after_seq: event {} does not exist in this store; get the job again and "
                           "watch without after_seq",
                           seq),
               "EVENTS_GONE");

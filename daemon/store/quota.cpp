@@ -26,7 +26,8 @@ tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usag
   if (usage.pinned_bytes > 0) {
     words += fmt::format(" ({} by pinned jobs)", mebibytes(usage.pinned_bytes));
   }
-  if (more_bytes > 0) words += fmt::format(", and this needs {} MiB more", mebibytes(more_bytes));
+  if (more_bytes > 0)
+    words += fmt::format(", and the new file needs {} MiB more", mebibytes(more_bytes));
   return over_quota("bytes", usage.stored_bytes, allowed,
                     words +
                         "; delete jobs (hydroprint list --mine, hydroprint delete) or files "

@@ -41,8 +41,8 @@ SetAside::~SetAside() {
       {{"count", count_},
        {"folder", folder_.string()},
        {"message",
-        "the database does not know these files. If it was lost, or replaced by an older copy, "
-        "stop the daemon and restore the right one; otherwise delete the folder"}});
+        "these files are not in the database. If the database was lost, or replaced by an older "
+        "copy, stop the daemon and restore the right database; otherwise delete the folder"}});
 }
 
 Status SetAside::move(const std::filesystem::path& path) {

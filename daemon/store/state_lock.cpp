@@ -15,9 +15,10 @@ Result<UniqueFd> lock_state(const Layout& layout) {
   if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     std::string holder = "?";
     std::ifstream(layout.lock()) >> holder;
-    return fail(Code::kFailedPrecondition,
-                layout.root.string() + ": another hydroprintd (process " + holder +
-                    ") uses this state folder; stop it or choose another folder with --state-dir");
+    return fail(Code::kFailedPrecondition, layout.root.string() +
+                                               ": another hydroprintd (process " + holder +
+                                               ") uses this state folder; stop that process or "
+                                               "choose another folder with --state-dir");
   }
   const std::string pid = fmt::format("{}\n", ::getpid());
   if (::ftruncate(file.get(), 0) != 0) return system_failure(layout.lock(), "cannot be written");
@@ -30,8 +31,8 @@ Status check_restored(const Layout& layout) {
   if (!std::filesystem::exists(layout.unrestored(), ignored)) return {};
   return fail(Code::kFailedPrecondition,
               layout.root.string() +
-                  ": a restore of a backup was not finished here; do it again (hydroprint "
-                  "admin restore)",
+                  ": the restore of a backup into this folder was not finished; run hydroprint "
+                  "admin restore again",
               "RESTORE_UNFINISHED");
 }
 

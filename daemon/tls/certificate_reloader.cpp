@@ -90,7 +90,7 @@ void CertificateReloader::look_again() {
   if (done || done.error().message == refused_) return;
   refused_ = done.error().message;
   log(LogLevel::kError, "certificate_not_loaded",
-      {{"message", refused_ + "; the previous certificate stays in use"}});
+      {{"message", refused_ + ". The previous certificate stays in use"}});
 }
 
 void CertificateReloader::warn_of_expiry() {

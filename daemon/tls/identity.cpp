@@ -155,16 +155,16 @@ Result<std::shared_ptr<const Identity>> Identity::read(
   ERR_clear_error();
   const auto chain = certificates_in(result->chain_pem_);
   if (chain.empty()) {
-    return refused(
-        certificate_file,
-        "has no certificate in PEM format; it must begin with \"-----BEGIN CERTIFICATE-----\"");
+    return refused(certificate_file,
+                   "has no certificate in PEM format; such a certificate begins with \"-----BEGIN "
+                   "CERTIFICATE-----\"");
   }
   ERR_clear_error();
   const Owned<EVP_PKEY> key(
       PEM_read_bio_PrivateKey(reader_of(result->key_pem_).get(), nullptr, no_passphrase, nullptr));
   if (!key) {
     return refused(key_file, fmt::format("has no key in PEM format without a passphrase{}; convert "
-                                         "it with: openssl pkey -in OLD -out NEW",
+                                         "the key with: openssl pkey -in OLD -out NEW",
                                          openssl_words()));
   }
   if (X509_check_private_key(chain.front().get(), key.get()) != 1) {

@@ -10,7 +10,8 @@ constexpr JsonLimits kHeadLimits{256 << 10, 16};
 }  // namespace
 
 Result<std::optional<FramedMessage>> cut_framed(std::string& read, std::size_t most) {
-  const auto refusal = fail(Code::kInternal, "not a line of JSON with a number of bytes");
+  const auto refusal =
+      fail(Code::kInternal, "the message header is not a JSON line with a valid byte count");
   const std::size_t end = read.find('\n');
   if (end == std::string::npos) {
     if (read.size() > kHeadLimits.bytes) return refusal;

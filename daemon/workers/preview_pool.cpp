@@ -172,9 +172,10 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
     if (slot.call) finish(slot, tl::unexpected(*failure));
     slot.worker = nullptr;
   } else if (slot.call && now > slot.call->deadline) {
-    finish(slot, fail(Code::kResourceExhausted,
-                      "the preview took longer than 30 s; simplify the mesh, or submit it as a job",
-                      "TIME_LIMIT"));
+    finish(slot,
+           fail(Code::kResourceExhausted,
+                "the preview took longer than 30 s; simplify the mesh, or submit a job instead",
+                "TIME_LIMIT"));
     slot.worker = nullptr;
   }
 }

@@ -64,7 +64,8 @@ constexpr std::array kRefused{
 };
 
 constexpr const char* kNoSandbox =
-    "this machine cannot confine workers (seccomp); use a kernel and a container that allow it";
+    "this machine cannot confine workers (seccomp); use a kernel and a container that allow "
+    "seccomp filters";
 
 struct FreeFilter {
   void operator()(void* filter) const { seccomp_release(filter); }

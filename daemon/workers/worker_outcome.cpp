@@ -106,8 +106,8 @@ JobFailure judge_signal(int signal) {
                                signal));
   }
   return failure(Code::kInternal, "WORKER_KILLED",
-                 fmt::format("the worker crashed (signal {}, {}); please report it together with "
-                             "the model",
+                 fmt::format("the worker crashed (signal {}, {}); please report the crash together "
+                             "with the model",
                              signal, ::strsignal(signal)));
 }
 

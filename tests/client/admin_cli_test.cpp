@@ -324,7 +324,8 @@ TEST_F(AdminCli, NoDaemonStartsAfterAnInterruptedRestoreUntilItIsRepeated) {
   std::filesystem::remove(daemon_.state() / "hydroprint.db");
   const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
   EXPECT_EQ(refused.status, 4) << refused.words;
-  EXPECT_NE(refused.words.find("do it again"), std::string::npos) << refused.words;
+  EXPECT_NE(refused.words.find("hydroprint admin restore again"), std::string::npos)
+      << refused.words;
   EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
   // a repeated restore may replace what the interrupted one left
   ASSERT_EQ(admin({"restore", file}).status, 0);

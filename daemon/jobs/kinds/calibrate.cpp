@@ -24,14 +24,14 @@ Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
   if (!found && found.error().code == Code::kNotFound) {
     return tl::unexpected(Error{Code::kFailedPrecondition,
                                 "calibrate.camera_calibration: " + found.error().message +
-                                    "; name another one, or calibrate the camera",
+                                    "; name another calibration, or calibrate the camera",
                                 "CALIBRATION_MISSING",
                                 {{"calibration", spec.camera_calibration()}}});
   }
   HP_RETURN_IF_ERROR(found);
   if (found->definition.kind != CalibrationKind::kCamera) {
     return invalid_field("calibrate.camera_calibration",
-                         "names the calibration of an object; name one of a camera");
+                         "names the calibration of an object; name the calibration of a camera");
   }
   return std::optional(std::move(*found));
 }
@@ -93,7 +93,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     if (sources.camera.layout.empty()) {
       return invalid_field(
           "calibrate.layout",
-          "is missing, and the daemon's configuration has no camera.layout; specify one");
+          "is missing; set it, or set camera.layout in the daemon's configuration");
     }
     HP_ASSIGN_OR_RETURN(const std::string text, read_layout_text(sources.camera));
     HP_ASSIGN_OR_RETURN(*spec.mutable_layout(), adopt_text(text, "rig/layout.toml", sources));

@@ -16,7 +16,7 @@ class CaptureKind final : public KindOf<v1::CaptureSpec> {
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a capture, which cannot be repeated; create a new one";
+    return "a capture, which cannot be repeated; create a new capture";
   }
 };
 

@@ -20,7 +20,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a dip, which needs a new film; create a new one";
+    return "a dip, which needs a new film; create a new dip";
   }
 
  private:
@@ -40,11 +40,10 @@ class DipKind final : public KindOf<v1::DipSpec> {
                         needed_calibration(name, "dip.calibration", sources.calibrations));
     shown.set_calibration(calibration_name(found.id));
     if (!simulated.empty() && simulated != shown.calibration()) {
-      return invalid_field(
-          "dip.calibration",
-          fmt::format(
-              "is not the one that {} was computed with ({}); leave it out, or simulate again",
-              shown.simulate_job(), simulated));
+      return invalid_field("dip.calibration",
+                           fmt::format("is not the calibration that {} was computed with ({}); "
+                                       "leave this field out, or simulate again",
+                                       shown.simulate_job(), simulated));
     }
     resolved = shown;
     return {};

@@ -14,11 +14,12 @@ class PrintKind final : public KindOf<v1::PrintSpec> {
     out.computed = false;
     out.reads_artifacts = true;
     out.interrupted_advice =
-        "the printer may already have printed this; check before you print again";
+        "the printer may already have printed this; check the tray before you print again";
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a print, which may already be in the printer's tray; check, then create a new one";
+    return "a print, which may already be in the printer's tray; check the tray, then create a new "
+           "print job";
   }
 
  private:

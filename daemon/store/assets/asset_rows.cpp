@@ -18,7 +18,7 @@ Result<Asset> select_asset(Database& database, const std::string& sha256) {
 }
 
 tl::unexpected<Error> asset_not_found(const std::string& sha256) {
-  return fail(Code::kNotFound, "assets/" + sha256 + " is not on the daemon; upload it",
+  return fail(Code::kNotFound, "assets/" + sha256 + " does not exist; upload the file",
               "ASSET_NOT_FOUND");
 }
 

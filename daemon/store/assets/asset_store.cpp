@@ -22,10 +22,10 @@ Status check_is_not_used_by(Database& database, const std::string& sha256,
                      "job_inputs.sha256=? AND jobs.owner=? LIMIT 1",
                      {sha256, owner}));
   if (jobs.empty()) return {};
-  return fail(
-      Code::kFailedPrecondition,
-      fmt::format("assets/{}: {} uses it; delete that job first", sha256, job_name(jobs.front())),
-      "STATE_FORBIDS");
+  return fail(Code::kFailedPrecondition,
+              fmt::format("assets/{}: {} uses this file; delete that job first", sha256,
+                          job_name(jobs.front())),
+              "STATE_FORBIDS");
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
                        {sha256}));
     if (!jobs.empty()) {
       return fail(Code::kFailedPrecondition,
-                  fmt::format("assets/{} is needed by {}; cancel that job or wait for its end",
+                  fmt::format("assets/{} is needed by {}; cancel that job or wait until it ends",
                               sha256, job_name(jobs.front())),
                   "STATE_FORBIDS");
     }

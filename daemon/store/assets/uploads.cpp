@@ -15,8 +15,8 @@ namespace hydroprint::daemon {
 
 tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
   auto error = fail(code,
-                    fmt::format("the file has more than {} bytes; send at most the announced size, "
-                                "and at most assets.max_mib",
+                    fmt::format("the file has more than {} bytes; do not exceed the announced size "
+                                "or assets.max_mib",
                                 max_bytes),
                     "ASSET_TOO_LARGE");
   error.value().metadata["max_bytes"] = fmt::to_string(max_bytes);
@@ -92,7 +92,7 @@ Result<Upload> Uploads::get(const std::string& id, const std::string& owner) {
       }));
   if (upload.id.empty()) {
     return fail(Code::kNotFound,
-                "uploads/" + id + ": there is no such upload; start the upload again",
+                "uploads/" + id + " does not exist, or has expired; start the upload again",
                 "UPLOAD_NOT_FOUND");
   }
   upload.received_bytes = std::min(size_on_disk(layout_.upload(id)), upload.size_bytes);

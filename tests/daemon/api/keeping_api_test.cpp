@@ -161,7 +161,7 @@ TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageIsReported) {
   expect_refused(refused, StatusCode::RESOURCE_EXHAUSTED, "QUOTA_EXCEEDED");
   EXPECT_EQ(
       refused.error_message(),
-      "maker uses 3 of 4 MiB, and this needs 3 MiB more; delete jobs (hydroprint list "
+      "maker uses 3 of 4 MiB, and the new file needs 3 MiB more; delete jobs (hydroprint list "
       "--mine, hydroprint delete) or files (hydroprint assets list, hydroprint assets delete)");
   EXPECT_TRUE((*this)["other"].start_upload(larger, started).ok());
   v1::Usage usage;
