@@ -19,8 +19,9 @@ using ArtifactStub = v1::ArtifactService::Stub;
 tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number) {
   return fail(
       error_number == ENOSPC ? Code::kResourceExhausted : Code::kPermissionDenied,
-      fmt::format("{}: cannot be written ({}); choose another folder with --out or make room",
-                  path.string(), std::strerror(error_number)));
+      fmt::format(
+          "{}: cannot be written ({}); choose another folder with --out, or free disk space",
+          path.string(), std::strerror(error_number)));
 }
 
 // Appends bytes to the hidden file for an incomplete download.

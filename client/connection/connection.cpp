@@ -36,10 +36,9 @@ Status check_secrets_may_go(const ConnectionOptions& options) {
   if (address.is_loopback()) return {};
   return fail(
       Code::kFailedPrecondition,
-      fmt::format(
-          "{0} is another machine, and without TLS a password or key could be read on the way; "
-          "use --server https://{0}, or forward a port of this machine with ssh -L",
-          options.server));
+      fmt::format("{0} is another machine, and without TLS a password or key could be intercepted; "
+                  "use --server https://{0}, or forward a port of this machine with ssh -L",
+                  options.server));
 }
 
 Connection::Impl::Impl(ConnectionOptions connection_options)

@@ -106,7 +106,7 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     // If no server listens, gRPC's own message adds nothing useful and varies between versions.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
     error.message = fmt::format(
-        "{}: no hydroprintd answers there{}; start it, or correct the address (--server host:port)",
+        "{}: hydroprintd does not respond{}; start it, or correct the address (--server host:port)",
         options.server, usual ? "" : fmt::format(" ({})", error.message));
   }
   return error;

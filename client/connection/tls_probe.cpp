@@ -99,15 +99,13 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
       return fmt::format(
-          "the server's TLS certificate is not for the name {}; use a name in the certificate for "
-          "--server, "
-          "or get a certificate for this name",
+          "the server's TLS certificate is not for the name {}; use a name from the certificate "
+          "with --server, or get a certificate for this name",
           address.host);
     default:
       return fmt::format(
-          "the server's TLS certificate is not signed by a trusted authority ({}); specify that "
-          "authority's "
-          "certificate with --ca FILE (HYDROPRINT_CA)",
+          "the server's TLS certificate is not signed by a trusted authority ({}); specify the "
+          "authority's certificate with --ca FILE (HYDROPRINT_CA)",
           X509_verify_cert_error_string(verdict));
   }
 }

@@ -27,8 +27,9 @@ Status read_file(const std::filesystem::path& path, std::int64_t offset,
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return cannot_read(path, error ? error.value() : ENOENT);
   if (!std::filesystem::is_regular_file(status))
-    return fail(Code::kInvalidArgument,
-                path.string() + ": not a regular file; use a file instead of a folder or device");
+    return fail(
+        Code::kInvalidArgument,
+        path.string() + ": not a regular file; give the path of a file, not of a folder or device");
   std::ifstream file(path, std::ios::binary);
   if (!file) return cannot_read(path, errno);
   file.seekg(offset);

@@ -48,8 +48,8 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
     ::close(line);
   }
   if (reply.empty()) {
-    return fail(Code::kUnavailable, fmt::format("{}: no virtual rig responds there; use the path "
-                                                "of the --control flag of hydroprint-virtual-rig",
+    return fail(Code::kUnavailable, fmt::format("{}: no virtual rig responds; use the path that "
+                                                "hydroprint-virtual-rig was given with --control",
                                                 control.string()));
   }
   if (!reply.starts_with("error: ")) return reply;

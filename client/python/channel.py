@@ -37,12 +37,13 @@ def _kept_key(address):
     try:
         with open(path, "rb") as file:
             if stat.S_IMODE(os.fstat(file.fileno()).st_mode) & 0o077:
-                sys.exit(f"{path}: other users can read the keys in it; chmod 600 it, and create new keys")
+                sys.exit(f"{path}: other users can read the keys in this file; run chmod 600 on it, "
+                         "and create new keys")
             return tomllib.load(file).get(address, {}).get("api_key")
     except FileNotFoundError:
         return None
     except tomllib.TOMLDecodeError as error:
-        sys.exit(f"{path}: is not valid TOML ({error}); correct or delete it")
+        sys.exit(f"{path}: not valid TOML ({error}); correct or delete the file")
 
 
 def _is_loopback(address):
@@ -63,7 +64,7 @@ def open_channel(server):
         address += _PORT
     key = os.environ.get("HYDROPRINT_API_KEY") or _kept_key(address)
     if key and not is_tls and not _is_loopback(address):
-        sys.exit(f"{address} is another machine, and without TLS the key could be read on the way; "
+        sys.exit(f"{address} is another machine, and without TLS the key could be intercepted; "
                  f"use {_TLS}{address}")
     options = [("grpc.enable_http_proxy", 0)]
     if is_tls:

@@ -107,7 +107,7 @@ Status OpenNiCamera::open(const std::string& uri) {
   if (device_.open(wanted) != openni::STATUS_OK) {
     return fail(Code::kNotFound,
                 (uri.empty() ? "no depth camera is plugged in" : uri + ": no such depth camera") +
-                    details() + ". Plug it in, or correct the name",
+                    details() + ". Plug in the camera, or correct its name",
                 "CAMERA_NOT_FOUND");
   }
   const openni::DeviceInfo& info = device_.getDeviceInfo();

@@ -121,7 +121,8 @@ Result<std::unique_ptr<Connection>> Connection::open(const Endpoint& endpoint,
   modbus_t* modbus = endpoint.serial ? modbus_new_rtu(endpoint.device.c_str(), endpoint.baud,
                                                       endpoint.parity, 8, endpoint.stop_bits)
                                      : modbus_new_tcp(endpoint.host.c_str(), endpoint.port);
-  if (modbus == nullptr) return offline(endpoint, "is not a valid address. Correct it");
+  if (modbus == nullptr)
+    return offline(endpoint, "not a valid address. Use tcp:ADDRESS:PORT or rtu:DEVICE");
   std::unique_ptr<Connection> out(new Connection(endpoint, timing, modbus));
   modbus_set_error_recovery(modbus, MODBUS_ERROR_RECOVERY_NONE);
   // Without a timeout between bytes, the response timeout limits the whole reply.

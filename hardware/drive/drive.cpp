@@ -78,12 +78,13 @@ Status Drive::check_identity() {
     const auto words = read(mark.space, mark.address, 1);
     if (!words && words.error().reason != "DRIVE_REFUSED") return tl::unexpected(words.error());
     if (words && ((*words)[0] & mark.mask) == mark.value) continue;
-    return tl::unexpected(unsafe(fmt::format(
-        "register {:#06x} ({}) {}, not {:#06x}: the drive is not a {}. Use the profile of the "
-        "connected drive",
-        mark.address, mark.meaning,
-        words ? fmt::format("holds {:#06x}", (*words)[0]) : "does not exist", mark.value,
-        profile_.name)));
+    return tl::unexpected(
+        unsafe(fmt::format("register {:#06x} ({}) {}; {:#06x} is expected, so the drive is not a "
+                           "{}. Use the profile of the connected "
+                           "drive",
+                           mark.address, mark.meaning,
+                           words ? fmt::format("holds {:#06x}", (*words)[0]) : "does not exist",
+                           mark.value, profile_.name)));
   }
   return {};
 }
@@ -107,7 +108,7 @@ Result<Inspection> Drive::inspect_watchdog() {
   if (!out.unsafe && std::find(stopping.begin(), stopping.end(), action[0]) == stopping.end()) {
     out.unsafe = unsafe(fmt::format(
         "the communication watchdog of {} does not stop the axis: its action, register {:#06x}, is "
-        "{}. Set an action that stops, see the drive's manual",
+        "{}. Set an action that stops the axis (see the drive's manual)",
         profile_.name, watchdog.action->address, action[0]));
   }
   return out;
@@ -152,7 +153,7 @@ Status Drive::may_move() const {
   if (unsafe_) return tl::unexpected(*unsafe_);
   if (known_ && connected()) return {};
   return fail(Code::kUnavailable,
-              "the state of " + profile_.name + " is unknown after a failure. Poll it first",
+              "the state of " + profile_.name + " is unknown after a failure. Poll the drive first",
               "RIG_OFFLINE");
 }
 

@@ -28,15 +28,15 @@ bool read_number(std::string_view text, int& out) {
 Result<Endpoint> parse_tcp(std::string_view all, std::string_view rest) {
   Endpoint out;
   const std::size_t colon = rest.rfind(':');
-  if (colon == std::string_view::npos) return refuse(all, "has no port");
+  if (colon == std::string_view::npos) return refuse(all, "the port is missing");
   out.host = rest.substr(0, colon);
   if (out.host == "localhost") out.host = "127.0.0.1";
   in_addr address{};
   if (inet_pton(AF_INET, out.host.c_str(), &address) != 1) {
-    return refuse(all, "is not an IPv4 address (host names are not supported)");
+    return refuse(all, "the host is not an IPv4 address (host names are not supported)");
   }
   if (!read_number(rest.substr(colon + 1), out.port) || out.port < 1 || out.port > 65535) {
-    return refuse(all, "has no port from 1 to 65535");
+    return refuse(all, "the port is not a number from 1 to 65535");
   }
   return out;
 }
@@ -67,7 +67,7 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
     const std::size_t equals = std::min(option.find('='), option.size());
     if (equals == option.size() ||
         !set_option(option.substr(0, equals), option.substr(equals + 1), out)) {
-      return refuse(all, fmt::format("has the invalid option \"{}\"", option));
+      return refuse(all, fmt::format("the option \"{}\" is not valid", option));
     }
     options.remove_prefix(std::min(end + 1, options.size()));
   }

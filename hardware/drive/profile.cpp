@@ -49,7 +49,8 @@ Field read_field(TomlReader table, std::string_view per_unit) {
   field.address = read_word(table, "address");
   field.format = read_format(table, per_unit);
   if (field.address + field.format.words > 0x10000) {
-    table.refuse("address", "extends beyond register 65535. Correct it");
+    table.refuse("address",
+                 "is too high: the value ends after register 65535. Use a lower address");
   }
   return field;
 }
@@ -58,14 +59,14 @@ Mark read_mark(TomlReader& table, Space space) {
   Mark mark{space, read_word(table, "address"), read_word(table, "value"),
             read_word(table, "mask", 0xffff), table.text("meaning", "mark")};
   if (mark.mask == 0 || (mark.value & ~mark.mask) != 0) {
-    table.refuse("mask", "omits bits of the value. Set them in the mask");
+    table.refuse("mask", "is 0 or omits bits of the value. Set these bits in the mask");
   }
   return mark;
 }
 
 void check_mark(const Block& block, TomlReader& mark) {
   if (block.mark.address < block.address || block.mark.address >= block.address + block.count) {
-    mark.refuse("address", "lies outside its block. Use a register of the block");
+    mark.refuse("address", "is outside its block. Use a register of the block");
   }
 }
 
@@ -79,7 +80,8 @@ std::vector<Block> read_blocks(TomlReader& top) {
     // lengths of replies must differ.
     block.count = static_cast<std::uint16_t>(table.integer("count", 3, kMaxReadWords));
     if (block.address + block.count > 0x10000) {
-      table.refuse("count", "extends beyond register 65535. Correct it");
+      table.refuse("count",
+                   "is too large: the block ends after register 65535. Use a smaller count");
     }
     TomlReader mark = table.table("mark");
     block.mark = read_mark(mark, block.space);
@@ -124,7 +126,7 @@ void read_alarms(TomlReader& top, DriveProfile& profile) {
     const int number = static_cast<int>(table.integer("code", 1, 0xffff));
     Alarm alarm{table.text("text"), table.text("hint")};
     if (!profile.alarms.emplace(number, std::move(alarm)).second) {
-      table.refuse("code", "appears twice. Remove one");
+      table.refuse("code", "is used by two alarms. Remove one of them");
     }
   }
 }
@@ -176,8 +178,9 @@ Write read_write(TomlReader& table, const DriveProfile& profile) {
     write.values.push_back(*value);
   }
   if (words < 1 || words > kMaxWriteWords || write.address + words > 0x10000) {
-    table.refuse("values",
-                 "contains too few or too many words. Use 1 to 123, none beyond register 65535");
+    table.refuse(
+        "values",
+        "contains too few or too many words, or ends after register 65535. Use 1 to 123 words");
   }
   return write;
 }

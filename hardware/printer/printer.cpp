@@ -245,7 +245,7 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
   const auto units = [](double mm) { return static_cast<int>(std::lround(mm * kUnitsPerMm)); };
   const pwg_media_t* media = pwgMediaForSize(units(job.paper_mm.x()), units(job.paper_mm.y()));
   if (media == nullptr)
-    return fail(Code::kOutOfRange, "paper: the size is not a standard size. Use another");
+    return fail(Code::kOutOfRange, "paper: not a standard size. Use a standard size, such as A4");
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "media", nullptr, media->pwg);
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "print-scaling", nullptr, "none");
   auto reply = exchange(address_, {timing_.connect, timing_.answer, timing_.upload}, gives_up_,
@@ -253,7 +253,8 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
   if (!reply) {
     Error error = std::move(reply).error();
     if (error.reason != kUnreachable) {
-      error.message += ". The printer may have accepted the job. Check it before printing again";
+      error.message +=
+          ". The printer may have accepted the job. Check the printer before you print again";
     }
     return tl::unexpected(std::move(error));
   }

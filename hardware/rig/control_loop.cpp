@@ -295,7 +295,7 @@ void ControlLoop::answer_waiting() {
       continue;
     }
     Error error{Code::kAborted,
-                "the drive did not confirm the command; check its display and try again",
+                "the drive did not confirm the command; check the drive's display and try again",
                 "STATE_FORBIDS",
                 {{"state", std::string(name(condition_.state))}}};
     answer(order, tl::unexpected(std::move(error)));
@@ -306,7 +306,10 @@ void ControlLoop::refuse_all() {
   std::deque<Order> orders = shared_.orders.take_all();
   for (Order& order : waiting_) orders.push_back(std::move(order));
   waiting_.clear();
-  for (Order& order : orders) order.answer.set_value(aborted("the daemon is releasing the rig"));
+  for (Order& order : orders)
+    order.answer.set_value(
+        aborted("the daemon is shutting down, so the command may not have been executed; try again "
+                "after it has restarted"));
 }
 
 void ControlLoop::publish() {

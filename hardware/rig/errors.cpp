@@ -38,8 +38,8 @@ Words words(Cause cause) {
       return {"the axis moved without a command", "find out what else commands the drive",
               "RIG_FAULTED"};
     case Cause::kConfigUnsafe:
-      return {"the drive's watchdog would no longer stop the axis", "set up its watchdog",
-              "DRIVE_CONFIG_UNSAFE"};
+      return {"the drive's watchdog would no longer stop the axis",
+              "correct the settings of the watchdog", "DRIVE_CONFIG_UNSAFE"};
     case Cause::kStopButton:
       return {"the stop button was pressed", "release it", "STOP_BUTTON"};
     case Cause::kNone:

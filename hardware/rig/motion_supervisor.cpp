@@ -27,7 +27,8 @@ Status check(const RigConfig& config, const Plan& plan) {
   if (plan.motion == Motion::kJog) return check_speed(config, std::abs(plan.jog_mm_per_s));
   if (plan.motion == Motion::kHome) return {};
   if (plan.legs.empty() || (plan.motion == Motion::kMove && plan.legs.size() != 1)) {
-    return fail(Code::kInvalidArgument, "the motion has no leg; specify a target and a speed",
+    return fail(Code::kInvalidArgument,
+                "the motion has no target, or a move has several; specify one target and its speed",
                 "SPEC_INVALID");
   }
   for (const Leg& leg : plan.legs) {

@@ -53,8 +53,7 @@ Result<Sample> make(const std::string& kind) {
     if (kind == maker.name) return maker.make();
     known.append(known.empty() ? "" : ", ").append(maker.name);
   }
-  return fail(Code::kInvalidArgument,
-              "there is no sample \"" + kind + "\". Choose one of " + known);
+  return fail(Code::kInvalidArgument, "unknown sample \"" + kind + "\". Choose one of " + known);
 }
 
 }  // namespace

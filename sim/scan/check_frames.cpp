@@ -9,7 +9,9 @@
 namespace hydroprint::scan {
 
 Status check_frames(std::span<const DepthFrame> frames) {
-  if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames. Switch the camera on");
+  if (frames.empty())
+    return fail(Code::kInvalidArgument,
+                "no depth frames were recorded. Check the camera, and record again");
   if (frames.size() > std::numeric_limits<std::uint16_t>::max())
     return fail(Code::kInvalidArgument, "more than 65535 depth frames. Use fewer frames");
   const DepthFrame& first = frames.front();
@@ -18,10 +20,10 @@ Status check_frames(std::span<const DepthFrame> frames) {
     if (frame.width_px <= 0 || frame.width_px != first.width_px ||
         frame.height_px != first.height_px ||
         frame.depth_mm.size() != frame.index(0, frame.height_px))
-      return fail(
-          Code::kInvalidArgument,
-          fmt::format(
-              "depth frame {} has a different size. Record all frames in the same camera mode", i));
+      return fail(Code::kInvalidArgument,
+                  fmt::format("the size of depth frame {} is invalid or differs from the first. "
+                              "Record all frames in the same camera mode",
+                              i));
   }
   const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
   if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing))

@@ -101,8 +101,8 @@ Result<Cloud> make_cloud(const FusedFrame& fused, const Camera& camera, const De
   const Lens& lens = camera.lens;
   if (mean.width_px != lens.width_px || mean.height_px != lens.height_px)
     return fail(Code::kInvalidArgument,
-                fmt::format("the lens model is for {} x {} pixels, the frames have {} x {}. "
-                            "Calibrate the camera in this mode",
+                fmt::format("the lens model is for {} x {} pixels, but the frames have {} x {}. "
+                            "Calibrate the camera at the resolution of the frames",
                             lens.width_px, lens.height_px, mean.width_px, mean.height_px));
   HP_RETURN_IF_ERROR(camera.pattern.check_for(mean.width_px, mean.height_px, noise));
   const PointGrid grid = points_of(mean, camera, noise);

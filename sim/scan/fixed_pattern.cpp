@@ -20,11 +20,11 @@ Status FixedPattern::check_for(int image_width_px, int image_height_px,
       (width_px == image_width_px && height_px == image_height_px && patch_px == noise.patch_px))
     return {};
   const auto named = [](int width, int height, int patch) {
-    return fmt::format("{} x {} pixels in squares of {}", width, height, patch);
+    return fmt::format("{} x {} pixels in squares of {} pixels", width, height, patch);
   };
   return fail(Code::kInvalidArgument,
-              fmt::format("the camera's fixed pattern is for {}, the frames have {}. Calibrate the "
-                          "camera in this mode",
+              fmt::format("the camera's fixed pattern is for {}, but the frames have {}. Calibrate "
+                          "the camera at the resolution of the frames",
                           named(width_px, height_px, patch_px),
                           named(image_width_px, image_height_px, noise.patch_px)));
 }

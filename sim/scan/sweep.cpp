@@ -32,12 +32,13 @@ Status check(const SweepTask& task) {
   const DepthFrame& first = task.frames.front();
   if (first.width_px != task.camera.lens.width_px || first.height_px != task.camera.lens.height_px)
     return fail(Code::kInvalidArgument,
-                "the lens calibration is for another image size. Calibrate the camera in its "
-                "current mode");
+                "the lens calibration is for another resolution. Calibrate the camera at the "
+                "resolution of the frames");
   if (task.times_s.size() != task.frames.size() ||
       std::adjacent_find(task.times_s.begin(), task.times_s.end(), std::greater_equal<>()) !=
           task.times_s.end())
-    return fail(Code::kInvalidArgument, "the frames' times do not increase. Record again");
+    return fail(Code::kInvalidArgument,
+                "the times of the frames are missing or do not increase. Record the frames again");
   return task.camera.pattern.check_for(first.width_px, first.height_px, task.noise);
 }
 

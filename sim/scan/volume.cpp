@@ -210,8 +210,8 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
                    const Pose& X_WC, const Context& context) {
   if (frame.width_px != optics.lens.width_px || frame.height_px != optics.lens.height_px)
     return fail(Code::kInvalidArgument,
-                "the lens calibration is for another image size. Calibrate the camera in its "
-                "current mode");
+                "the lens calibration is for another resolution. Calibrate the camera at the "
+                "resolution of the frames");
   const Pose X_CW = X_WC.inverse();
   std::vector<char> marked(blocks_.size(), 0);
   HP_RETURN_IF_ERROR(mark_surface(frame, optics, X_WC, marked));

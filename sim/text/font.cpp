@@ -96,7 +96,7 @@ Result<Font> Font::open(const std::filesystem::path& file) {
   auto impl = std::make_unique<Impl>();
   impl->bytes = std::move(*bytes);
   if (FT_Init_FreeType(&impl->library) != 0) {
-    return fail(Code::kInternal, "FreeType: cannot be started: out of memory. Free some memory",
+    return fail(Code::kInternal, "FreeType cannot start: out of memory. Free some memory",
                 "OUT_OF_MEMORY");
   }
   if (FT_New_Memory_Face(impl->library, reinterpret_cast<const FT_Byte*>(impl->bytes.data()),

@@ -32,8 +32,8 @@ constexpr std::array<hb_tag_t, 5> kUnneeded = {
 
 tl::unexpected<Error> failure() {
   return fail(Code::kInternal,
-              "font: cannot be reduced to the characters of a page. Install the Debian packages "
-              "fonts-dejavu-core and libharfbuzz-subset0 again");
+              "font: cannot be reduced to the characters of a page. Reinstall the Debian packages "
+              "fonts-dejavu-core and libharfbuzz-subset0");
 }
 
 }  // namespace

@@ -47,8 +47,7 @@ Status check(const Options& options) {
     const bool is_known = std::any_of(kMakers.begin(), kMakers.end(),
                                       [&](const Maker& maker) { return name == maker.name; });
     if (is_known) continue;
-    return fail(Code::kInvalidArgument,
-                "there is no experiment '" + name + "'. Choose from " + known);
+    return fail(Code::kInvalidArgument, "unknown experiment '" + name + "'. Choose from " + known);
   }
   return {};
 }

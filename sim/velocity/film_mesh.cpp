@@ -233,8 +233,9 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     mesh.elimination_order = elimination_order(mesh);
     return mesh;
   } catch (const std::exception& error) {
-    return fail(Code::kInternal, fmt::format("film mesh at immersion {:.2f} mm: {}",
-                                             line.immersion_mm, error.what()));
+    return fail(Code::kInternal,
+                fmt::format("film mesh at immersion {:.2f} mm: {}. Please report this",
+                            line.immersion_mm, error.what()));
   }
 }
 

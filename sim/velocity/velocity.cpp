@@ -153,7 +153,8 @@ Result<std::vector<Eigen::Vector2d>> solve_stokes(const FilmMesh& mesh,
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
       factor(matrix);
   if (factor.info() != Eigen::Success) {
-    return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix");
+    return fail(Code::kInternal,
+                "velocity: the film mesh gives a singular matrix. Please report this");
   }
   const Eigen::MatrixX2d solution = factor.solve(load);
   for (std::size_t n = 0; n < fixed.size(); ++n) {

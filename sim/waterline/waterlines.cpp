@@ -88,7 +88,7 @@ Status check_first_contact(const Body& body, const film::Outline& outline, const
   return fail(
       Code::kFailedPrecondition,
       fmt::format("pose: the object's lowest point, at ({:.1f}, {:.1f}) mm, misses the film {}. "
-                  "Move the object over the film (translation_mm), or use a larger --film",
+                  "Move the object over the film (translation_mm), or use a larger film",
                   touch.x(), touch.y(), outline.name),
       "CONTACT_MISSES_FILM");
 }

@@ -82,7 +82,7 @@ Status check(const Message& spec, const std::filesystem::path& inputs) {
   for (const FieldDescriptor* field : fields) {
     if (is_reference(*field)) {
       return fail_field(Code::kInvalidArgument, field->name(),
-                        "only a daemon can resolve this. Use files and values instead");
+                        "only a daemon can resolve this reference. Use files and values instead");
     }
     if (is_input_file(*field)) HP_RETURN_IF_ERROR(check_files(spec, *field, inputs));
   }

@@ -41,11 +41,10 @@ Status become(const std::vector<std::string>& arguments) {
   for (std::string& word : words) raw.push_back(word.data());
   raw.push_back(nullptr);
   ::execvp(raw.front(), raw.data());
-  return fail(
-      Code::kFailedPrecondition,
-      fmt::format(
-          "{}: cannot be started: {}; run this on the machine where hydroprintd is installed",
-          words.front(), std::generic_category().message(errno)));
+  return fail(Code::kFailedPrecondition,
+              fmt::format("{}: cannot be started ({}); run this command on the machine where "
+                          "hydroprintd is installed",
+                          words.front(), std::generic_category().message(errno)));
 }
 
 std::vector<std::string> arguments_of(const std::string& verb, const AdminOptions& options) {

@@ -22,7 +22,7 @@ Status help(const CLI::App& app, const std::vector<std::string>& words) {
     command = child_of(*command, word);
     if (command == nullptr)
       return fail(Code::kInvalidArgument,
-                  "help: there is no command '" + word + "'; see hydroprint --help");
+                  "help: unknown command '" + word + "'; see hydroprint --help");
   }
   // CLI::App::help() would describe this command, which is the one on the command line.
   std::cout << command->get_formatter()->make_help(command, command->get_name(),

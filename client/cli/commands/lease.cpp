@@ -39,11 +39,11 @@ void print_result(const Program& program, const v1::Lease& lease) {
 // Returns the lease id stored for this daemon.
 Result<std::string> our_lease(const Program& program) {
   if (auto kept = kept_lease(program.server())) return *kept;
-  return fail(
-      Code::kFailedPrecondition,
-      lease_file(program.server()).string() +
-          ": no lease is stored there; acquire one: hydroprint rig lease acquire --purpose ...",
-      "LEASE_REQUIRED");
+  return fail(Code::kFailedPrecondition,
+              lease_file(program.server()).string() +
+                  ": no lease is stored in this file; acquire a lease with 'hydroprint rig lease "
+                  "acquire --purpose ...'",
+              "LEASE_REQUIRED");
 }
 
 Status show_lease(Program& program) {

@@ -44,7 +44,7 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   std::cout << printable(me.user()) << " is " << client::name_of(me.role()) << " at "
             << program.server() << " (by " << printable(me.via()) << ")" << std::endl;
   if (!me.accounts()) {
-    std::cout << "There are no users yet: every caller on that machine is an admin. Add the first "
+    std::cout << "No users exist yet: every caller on that machine is an admin. Add the first "
                  "user with "
                  "'hydroprint users add NAME --role ADMIN'."
               << std::endl;
@@ -112,7 +112,7 @@ Status log_in(Program& program, const LoginOptions& options) {
   HP_ASSIGN_OR_RETURN(const v1::WhoAmIResponse me, client::who_am_i(connection));
   if (!me.accounts()) {
     return fail(Code::kFailedPrecondition,
-                fmt::format("there are no users at {} yet; no login is needed", program.server()));
+                fmt::format("{}: no users exist yet, so no login is needed", program.server()));
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), key));
   return show_identity(program, me);

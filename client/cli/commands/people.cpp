@@ -236,7 +236,7 @@ void add_users(CLI::App& app, Program& program) {
   add->add_flag("--password", options->with_password,
                 "Ask for a password; otherwise use 'users link' or 'users password'");
   add->add_flag("--returns", options->returns,
-                "This person is the deleted user of that name and gets the jobs and files back");
+                "Restore the deleted user of that name, with the jobs and files of that user");
   add->footer("Example:\n  hydroprint users add ann --role ADMIN --password");
   program.on(*add, [&program, options] { return add_user(program, *options); });
 

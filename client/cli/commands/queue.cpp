@@ -57,7 +57,7 @@ void add_move(CLI::App& parent, Program& program) {
   add_job_argument(*command, *job);
   command
       ->add_option("--before", *before,
-                   "Move the job in front of this one; default: behind all jobs of its owner")
+                   "Insert before this job; default: after all jobs of the same owner")
       ->type_name("JOB");
   program.on(*command, [&program, job, before] {
     return move(program, job_name(*job), before->empty() ? "" : job_name(*before));

@@ -66,7 +66,7 @@ Result<std::vector<v1::Artifact>> choose(client::Connection& daemon, const std::
 
 // Explains why a dip, print or capture ended when the daemon stopped.
 std::string interruption(const v1::Job& job) {
-  if (job.has_dip()) return "the daemon stopped during the dip";
+  if (job.has_dip()) return "the daemon stopped during the dip; check the rig and the object";
   if (job.has_capture()) return "the daemon stopped during the capture; start a new capture";
   return "the daemon stopped during the print; check the printer";
 }

@@ -31,15 +31,15 @@ Result<toml::table> read_credentials() {
   struct stat info {};
   if (::stat(file.c_str(), &info) != 0) return toml::table();
   if ((info.st_mode & 077) != 0) {
-    return fail(
-        Code::kPermissionDenied,
-        file.string() + ": other users can read the keys in it; chmod 600 it, and create new keys");
+    return fail(Code::kPermissionDenied, file.string() +
+                                             ": other users can read the keys in this file; run "
+                                             "chmod 600 on it, and create new keys");
   }
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
     return fail(Code::kInvalidArgument,
-                fmt::format("{}: is not valid TOML ({}); correct or delete it", file.string(),
+                fmt::format("{}: not valid TOML ({}); correct or delete the file", file.string(),
                             error.description()));
   }
 }

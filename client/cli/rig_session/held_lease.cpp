@@ -127,17 +127,16 @@ Error in_our_words(Error error) {
   const std::string who = holder_of(error);
   if (error.reason == "LEASE_HELD")
     error.message = fmt::format(
-        "the rig's lease is taken{}{}; ask the holder, or take it with 'hydroprint rig lease break "
-        "--reason ...'",
+        "the rig's lease is taken{}{}; ask the holder, or end the lease with 'hydroprint rig lease "
+        "break --reason ...'",
         who.empty() ? "" : ": ", who);
   if (error.reason == "LEASE_REQUIRED")
-    error.message = fmt::format(
-        "commanding the rig needs its lease, which you do not hold{}",
-        who.empty()
-            ? "; acquire it: 'hydroprint rig lease acquire --purpose ...'"
-            : fmt::format(
-                  ": {}; ask the holder, or take it with 'hydroprint rig lease break --reason ...'",
-                  who));
+    error.message =
+        fmt::format("commanding the rig needs its lease, which you do not hold{}",
+                    who.empty() ? "; acquire it with 'hydroprint rig lease acquire --purpose ...'"
+                                : fmt::format(": {}; ask the holder, or end the lease with "
+                                              "'hydroprint rig lease break --reason ...'",
+                                              who));
   return error;
 }
 

@@ -72,7 +72,7 @@ Status jog_by_keys(Program& program, const std::string& lease_id, double speed_m
 Status jog_as_told(Program& program, const JogOptions& options) {
   if (!options.time_s && !Keyboard::is_there())
     return fail(Code::kInvalidArgument,
-                "jogging by keys needs a terminal; use --speed MM/S and --for TIME");
+                "jogging with keys needs a terminal; use --speed MM/S and --for TIME");
   if (options.time_s && !options.speed_mm_per_s)
     return fail(Code::kInvalidArgument, "--for requires --speed MM/S, positive for down");
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));

@@ -40,7 +40,7 @@ Result<std::size_t> CameraControl::index_of(const std::string& marker) const {
     if (scene_.markers[i].name == marker) return i;
   }
   return fail(Code::kInvalidArgument,
-              fmt::format("there is no marker \"{:.40}\". Use one of {}", marker,
+              fmt::format("unknown marker \"{:.40}\". Use one of {}", marker,
                           names.empty() ? "the markers in --scene" : names));
 }
 

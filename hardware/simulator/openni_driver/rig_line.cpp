@@ -22,8 +22,10 @@ tl::unexpected<Error> gone() {
 }
 
 tl::unexpected<Error> nobody_at(const std::string& path) {
-  return fail(Code::kUnavailable,
-              fmt::format("no virtual rig listens at {0}. Start one with --control {0}", path));
+  return fail(
+      Code::kUnavailable,
+      fmt::format("no virtual rig listens at {0}. Start hydroprint-virtual-rig with --control {0}",
+                  path));
 }
 
 }  // namespace

@@ -134,8 +134,8 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
 std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens) {
   if (views.size() < kFewestViews)
     return fmt::format(
-        "the board was found in {} views. Record at least five, with the whole board in view and "
-        "clear of the background",
+        "the board was found in only {} views. Record at least five views, with the whole board in "
+        "view and clear of the background",
         views.size());
   std::set<int> cells;
   double tilt = 0, nearest = 1e9, farthest = 0;
@@ -154,8 +154,8 @@ std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens)
     return "the board has about the same tilt in all views. Tilt it by 30 degrees in each "
            "direction";
   if (farthest - nearest < kLeastRange * nearest)
-    return "the board is at about the same distance in all views. Record some nearer and some "
-           "farther";
+    return "the board is at about the same distance in all views. Record some views nearer and "
+           "some farther";
   return {};
 }
 

@@ -207,7 +207,8 @@ class Adjuster {
     judge(out);
     if (out.rms_sigmas > kMostSigmas)
       return poor(
-          "the board's shape does not match the views. Use the right board, and hold it still");
+          "the board's shape does not match the views. Use the calibration board, and hold it "
+          "still");
     for (std::size_t j = 0; j < kLens; ++j) {
       const auto i = static_cast<Index>(j);
       if (std::sqrt(scaled(i, i)) > kDeterminedShare)

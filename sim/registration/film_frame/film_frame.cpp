@@ -63,7 +63,8 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
       continue;
     const double off = (found[i].place_C() - X_CM.translation()).norm();
     if (off < kMoved_mm)
-      return fmt::format("it stands {:.1f} mm from its place. Move it back to its mark", off);
+      return fmt::format("it is {:.1f} mm from its configured position. Move it back to its mark",
+                         off);
   }
   const Shape shape(pyramid(layout.width_mm, layout.height_mm));
   const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
@@ -71,7 +72,7 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
     return "it is out of the camera's view. Aim the camera at all markers";
   if (sight.before + sight.without_depth + sight.out_of_view > kHiddenShare)
     return "it is hidden. Clear the camera's view of it";
-  return "the scan does not show its shape. It may be knocked over, dirty or missing";
+  return "the scan does not show its shape. Check whether it is knocked over, dirty or missing";
 }
 
 scan::DepthFrame depths_of(const scan::Cloud& cloud) {
@@ -127,7 +128,7 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
     is_seen[static_cast<std::size_t>(nearest - layout.markers.begin())] = true;
   }
   std::string text =
-      fmt::format("at least three markers are needed, but only {} are seen", found.size());
+      fmt::format("at least three markers are needed, but the camera sees only {}", found.size());
   for (std::size_t a = 0; a < is_seen.size(); ++a)
     if (!is_seen[a])
       text += "; \"" + layout.markers[a].name + "\" may be hidden, knocked over, dirty or missing";

@@ -205,11 +205,14 @@ void warn(ObjectPose& out) {
   if (out.sight.before + out.sight.without_depth > kHidden)
     out.warnings.push_back({"object_partly_hidden",
                             percent(out.sight.before + out.sight.without_depth) +
-                                " of the surface that faces the camera is hidden",
+                                " of the surface that faces the camera is hidden. Move the camera, "
+                                "or remove what hides the object",
                             "object"});
   for (const std::string& weak : out.weak)
     out.warnings.push_back({"pose_unconstrained",
-                            "not determined by the scan, so taken from the nominal pose: " + weak,
+                            "the scan does not determine this part of the pose, so it is taken "
+                            "from the nominal pose: " +
+                                weak,
                             "object"});
 }
 

@@ -23,13 +23,13 @@ Status check_range(const FieldDescriptor& field, double value, Code code) {
   if (rules == nullptr || rules::is_in_range(*rules, value)) return {};
   return fail_field(
       code, field.name(),
-      fmt::format("{} is out of range. It must be {}", value, rules::range_text(field)));
+      fmt::format("{} is out of range. The value must be {}", value, rules::range_text(field)));
 }
 
 Status check_choice(const FieldDescriptor& field, int number) {
   if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
   return fail_field(Code::kInvalidArgument, field.name(),
-                    fmt::format("{} is unknown. Use the name of a choice, as in --help", number));
+                    fmt::format("{} is not a known choice. Use a name that --help lists", number));
 }
 
 Status check_field(const Message& spec, const FieldDescriptor& field) {

@@ -54,7 +54,7 @@ std::vector<Stage> stages(const FlowOptions& options, bool is_simulation) {
 Status choose(FlowOptions& options, v1::Model model, bool inertia, v1::ArtifactSet artifacts) {
   if (inertia && model == v1::MODEL_STOKES) {
     return fail_field(Code::kInvalidArgument, "inertia",
-                      "not available with Stokes flow. Use it with model sheet");
+                      "not available with Stokes flow. Use model sheet, or leave inertia out");
   }
   if (model == v1::MODEL_STOKES) options.film_model = pipeline::FilmModel::kStokes;
   options.inertia = inertia;

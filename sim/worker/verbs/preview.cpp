@@ -67,7 +67,9 @@ Status answer_error(std::int64_t id, const Error& error) {
       {});
 }
 
-Error superseded() { return {Code::kCancelled, "a newer request came", "SUPERSEDED", {}}; }
+Error superseded() {
+  return {Code::kCancelled, "a newer request replaced this one", "SUPERSEDED", {}};
+}
 
 template <class Value>
 void put(std::string& bytes, Value value) {
@@ -96,7 +98,7 @@ Result<double> read_number(const nlohmann::json& value, const std::string& key, 
       value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (number >= least && number <= most) return number;
   return fail(Code::kInvalidArgument,
-              key + ": not a number, or out of range. Give it in mm or mm/s");
+              key + ": not a number, or out of range. Check the value and its unit (mm or mm/s)");
 }
 
 struct Request {
@@ -133,7 +135,7 @@ Status read_request(const std::string& line, const pipeline::DipOptions& otherwi
   const auto id = json_unsigned(json, "id");
   if (!id || *id > std::uint64_t{1} << 53) {
     return fail(Code::kInvalidArgument,
-                "id: missing, or not an integer. Add an id to each request");
+                "id: missing, or not an integer from 0 to 2^53. Give each request such an id");
   }
   request.id = static_cast<std::int64_t>(*id);
   for (const auto& [key, value] : json.items()) HP_RETURN_IF_ERROR(take(request, key, value));

@@ -45,8 +45,9 @@ Status check_film_image(const film::Outline& outline, double dpi) {
   const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
   return fail_field(
       Code::kOutOfRange, "dpi",
-      fmt::format("the film image would have {} x {} pixels. Use at most {} for this film",
-                  grid.columns, grid.rows, most_dpi));
+      fmt::format(
+          "the film image would have too many pixels ({} x {}). Use at most {} dpi for this film",
+          grid.columns, grid.rows, most_dpi));
 }
 
 class Simulate final : public ArtifactTask {

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "omits bits of the value"},
         Wrong{"count = 9", "count = 126", "block.count"},
         Wrong{"count = 9", "count = 8", "demand is not in any block"},
-        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside its block"},
+        Wrong{"address = 0x0100, value", "address = 0x0109, value", "is outside its block"},
         Wrong{"words = 2                     #", "words = 3 #", "position.words"},
         Wrong{"counts_per_mm = 10000.0       #", "counts_per_mm = 0 #", "position.counts_per_mm"},
         Wrong{"space = \"input\"\naddress = 0x0103", "space = \"coil\"\naddress = 0x0103",
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"largest_time_s = 0.25", "largest_time_s = 0", "watchdog.largest_time_s"},
         Wrong{"stopping_actions = [1]", "stopping_actions = [\"halt\"]",
               "watchdog.stopping_actions"},
-        Wrong{"code = 0x20", "code = 0x10", "appears twice"},
+        Wrong{"code = 0x20", "code = 0x10", "is used by two alarms"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
 
 TEST(DriveProfile, BlocksOfEqualLengthAreRefused) {

@@ -78,7 +78,7 @@ TEST_F(Fuse, RefusesFramesWithoutTimesAndVoxelsOutOfRange) {
   folder.write("frames/frames.json", listing.dump());
   const Ended ended = fuse({});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_NE(ended.err.find("Record again"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("Record the frames again"), std::string::npos) << ended.err;
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ TEST(FixedPattern, OfAnotherImageOrSquareSizeIsRefused) {
   const auto refused = make_cloud(fused, {lens_of_64(), {}, other}, {}, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
-  EXPECT_NE(refused.error().message.find("64 x 96 pixels in squares of 4"), std::string::npos)
+  EXPECT_NE(refused.error().message.find("64 x 96 pixels in squares of 4 pixels"),
+            std::string::npos)
       << refused.error().message;
   DepthNoise noise;
   noise.patch_px = 8;

@@ -225,10 +225,10 @@ class Validate : public ::testing::Test {
 
 TEST_F(Validate, RefusesBadFlags) {
   expect_refusal({"--out", out(), "--only", "acuracy"},
-                 "--only: there is no experiment 'acuracy'. Choose from repeatability, accuracy");
+                 "--only: unknown experiment 'acuracy'. Choose from repeatability, accuracy");
   expect_refusal({"--out", out(), "--mesh", "ball.obj"}, "--mesh");
   expect_refusal({"--out", out(), "--threads", "0"},
-                 "--threads: 0 is out of range. It must be from 1 to 256");
+                 "--threads: 0 is out of range. The value must be from 1 to 256");
   expect_refusal({"--quick"}, "--out");
 }
 

@@ -36,7 +36,7 @@ TEST_F(BadSpec, ValuesOfTheWrongTypeAreRefusedByField) {
   const std::string mesh = R"({"mesh": {"name": "sphere.obj"}, )";
   expect_bad_spec("simulate", mesh + R"("dpi": "many"})", {"dpi"});
   expect_bad_spec("simulate", mesh + R"("model": "MODEL_HONEY"})", {"model"});
-  expect_bad_spec("simulate", mesh + R"("model": 77})", {"model: ", "unknown"});
+  expect_bad_spec("simulate", mesh + R"("model": 77})", {"model: ", "not a known choice"});
   expect_bad_spec("simulate", mesh + R"("inertia": "perhaps"})", {"inertia"});
   expect_bad_spec("simulate", mesh + R"("pose": {"translationMm": [1, 2]}})",
                   {"pose: translation_mm: "});
@@ -73,7 +73,7 @@ TEST_F(BadSpec, MissingFilesAreRefusedByField) {
 TEST_F(BadSpec, ValuesOutOfRangeAreBadInput) {
   const std::string mesh = R"({"mesh": {"name": "sphere.obj"}, )";
   expect_bad_spec("simulate", mesh + R"("dpi": 0})",
-                  {"dpi: 0 is out of range. It must be from 20 to 2400 dots per inch"});
+                  {"dpi: 0 is out of range. The value must be from 20 to 2400 dots per inch"});
   expect_bad_spec("simulate", mesh + R"("dpi": "NaN"})", {"dpi: "});
   expect_bad_spec("simulate", mesh + R"("inkPasses": 21})", {"ink_passes: 21 is out of range"});
   expect_bad_spec("simulate", mesh + R"("threads": 0})", {"threads: 0 is out of range"});
@@ -125,7 +125,7 @@ TEST_F(BadSpec, ATooLargeFilmImageIsNamedByItsField) {
   expect_refusal(
       3,
       run_of("simulate", R"({"mesh": {"name": "sphere.obj"}, "film": "2000x2000", "dpi": 2400})"),
-      {"dpi: the film image would have"});
+      {"dpi: the film image would have too many pixels"});
 }
 
 }  // namespace

@@ -81,9 +81,9 @@ std::string left_out(const Rig& rig) {
 TEST(FilmFrame, AMovedMarkerIsLeftOut) {
   Rig rig;
   rig.markers[1].at_mm += Eigen::Vector3d(2, -1.5, 0);
-  EXPECT_NE(left_out(rig).find("2.5 mm from its place"), std::string::npos);
+  EXPECT_NE(left_out(rig).find("2.5 mm from its configured position"), std::string::npos);
   rig.markers[1].at_mm += Eigen::Vector3d(8, -6, 0);
-  EXPECT_NE(left_out(rig).find("12.5 mm from its place"), std::string::npos);
+  EXPECT_NE(left_out(rig).find("12.5 mm from its configured position"), std::string::npos);
 }
 
 TEST(FilmFrame, AToppledMarkerIsLeftOut) {
