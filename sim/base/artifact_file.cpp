@@ -22,11 +22,12 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
                   "DISK_FULL");
     case EFBIG:
       return fail(Code::kResourceExhausted,
-                  start + "beyond the limit on file sizes. Raise the limit (ulimit -f)",
+                  start + "larger than the limit on file sizes. Raise the limit (ulimit -f)",
                   "FILE_LIMIT");
     case ENOENT:
     case ENOTDIR:
-      return fail(Code::kNotFound, start + "no such folder. Create it or choose another");
+      return fail(Code::kNotFound,
+                  start + "its folder does not exist. Create the folder or choose another");
     case EACCES:
     case EPERM:
     case EROFS:

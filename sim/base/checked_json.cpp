@@ -44,7 +44,7 @@ bool is_deeper(std::string_view text, int most) {
 Result<json> parse_json(std::string_view text, JsonLimits limits) {
   if (text.size() > limits.bytes) {
     return fail(Code::kInvalidArgument,
-                fmt::format("longer than {} bytes. Shorten it", limits.bytes));
+                fmt::format("longer than {} bytes. Shorten the JSON", limits.bytes));
   }
   if (is_deeper(text, limits.depth)) {
     return fail(Code::kInvalidArgument,
@@ -54,9 +54,10 @@ Result<json> parse_json(std::string_view text, JsonLimits limits) {
     return json::parse(text);
   } catch (const json::parse_error& error) {
     return fail(Code::kInvalidArgument,
-                place(text, error.byte) + ": not valid JSON. Correct it there");
+                place(text, error.byte) + ": not valid JSON. Correct the JSON there");
   } catch (const json::exception&) {
-    return fail(Code::kInvalidArgument, "contains a number that is too large. Correct it");
+    return fail(Code::kInvalidArgument,
+                "contains a number that is too large. Use a smaller number");
   }
 }
 

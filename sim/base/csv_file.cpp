@@ -42,7 +42,7 @@ std::string header_objection(const std::vector<std::string_view>& cells,
   if (cells == wanted) return {};
   for (const std::string_view name : wanted) {
     const bool is_there = std::find(cells.begin(), cells.end(), name) != cells.end();
-    if (!is_there) return fmt::format("wrong header: no column {}", name);
+    if (!is_there) return fmt::format("wrong header: column {} is missing", name);
   }
   return "wrong header";
 }
@@ -51,7 +51,7 @@ std::string header_objection(const std::vector<std::string_view>& cells,
 std::string add_row(const std::vector<std::string_view>& cells,
                     const std::vector<std::string_view>& names, std::vector<double>& values) {
   if (cells.size() != names.size()) {
-    return fmt::format("not {} finite numbers: the number of cells is {}", names.size(),
+    return fmt::format("expected {} finite numbers, but the number of cells is {}", names.size(),
                        cells.size());
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -60,7 +60,7 @@ std::string add_row(const std::vector<std::string_view>& cells,
     const auto parsed = std::from_chars(cells[i].data(), end, value);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
       constexpr std::size_t kShown = 40;
-      return fmt::format("not {} finite numbers: {} is '{}'", names.size(), names[i],
+      return fmt::format("expected {} finite numbers, but {} is '{}'", names.size(), names[i],
                          cells[i].substr(0, kShown));
     }
     values.push_back(value);
@@ -93,7 +93,7 @@ Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view he
     ++line_number;
     const std::string_view line = take(text, '\n');
     if (table.rows() == most_rows) {
-      return refuse("too many rows", fmt::format("Use at most {}", most_rows));
+      return refuse("too many rows", fmt::format("Use at most {} rows", most_rows));
     }
     if (const std::string what = add_row(cells_of(line), names, table.values); !what.empty()) {
       return refuse(what, write);

@@ -16,7 +16,9 @@ Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
     return fail(Code::kNotFound, path.string() + ": no such file. Check the path");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Use a regular file");
+    return fail(
+        Code::kInvalidArgument,
+        path.string() + ": not a regular file. Give the path of a file, not of a folder or device");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {

@@ -15,8 +15,8 @@ constexpr double kMinQuaternion = 1e-6;
 template <int size>
 Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
                                                 const nlohmann::json& json) {
-  const std::string wanted =
-      fmt::format("{}: not a list of {} numbers. Correct the list", where, size);
+  const std::string wanted = fmt::format(
+      "{0}: not a list of {1} numbers. Write {1} numbers in square brackets", where, size);
   if (!json.is_array() || json.size() != size) return fail(Code::kInvalidArgument, wanted);
   Eigen::Vector<double, size> out;
   for (int i = 0; i < size; ++i) {
@@ -31,8 +31,9 @@ Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::
   HP_ASSIGN_OR_RETURN(const Eigen::Vector4d wxyz, read_vector<4>(where, json));
   const double length = wxyz.stableNorm();
   if (!(length >= kMinQuaternion)) {
-    return fail(Code::kInvalidArgument,
-                where + ": too short to be a rotation. Use [1, 0, 0, 0] for no rotation");
+    return fail(Code::kInvalidArgument, where +
+                                            ": the quaternion is too close to zero to be a "
+                                            "rotation. Use [1, 0, 0, 0] for no rotation");
   }
   return Eigen::Vector4d(wxyz / length);
 }
@@ -40,7 +41,8 @@ Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::
 Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohmann::json& json) {
   HP_ASSIGN_OR_RETURN(const Eigen::Vector3d xyz_mm, read_vector<3>(where, json));
   if (!(xyz_mm.cwiseAbs().maxCoeff() <= kMaxTranslation_mm)) {
-    return fail(Code::kOutOfRange, where + ": beyond 1e6 mm. Check that it is in mm");
+    return fail(Code::kOutOfRange,
+                where + ": a coordinate exceeds 1e6 mm. Check that the translation is in mm");
   }
   return xyz_mm;
 }

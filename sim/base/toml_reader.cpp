@@ -116,7 +116,7 @@ bool TomlReader::flag(std::string_view key, std::optional<bool> fallback) {
   const toml::node* node = find(key, !fallback);
   if (node == nullptr) return fallback.value_or(false);
   const auto* value = node->as_boolean();
-  if (value == nullptr) refuse(key, "must be true or false. Correct it");
+  if (value == nullptr) refuse(key, "is not a boolean. Write true or false");
   return value != nullptr && value->get();
 }
 
@@ -125,7 +125,7 @@ std::string TomlReader::text(std::string_view key, std::optional<std::string> fa
   if (node == nullptr) return std::move(fallback).value_or("");
   const auto* value = node->as_string();
   if (value == nullptr || value->get().find('\0') != std::string::npos) {
-    refuse(key, "is not text. Write it in quotes");
+    refuse(key, "is not valid text. Write text in quotes, without NUL characters");
     return {};
   }
   return value->get();
@@ -139,7 +139,7 @@ std::size_t TomlReader::choice(std::string_view key, const std::vector<std::stri
   const auto found =
       value == nullptr ? words.end() : std::find(words.begin(), words.end(), value->get());
   if (found == words.end()) {
-    refuse(key, "is not known. Write one of " + quoted_list(words));
+    refuse(key, "has an unknown value. Write one of " + quoted_list(words));
     return 0;
   }
   return static_cast<std::size_t>(found - words.begin());

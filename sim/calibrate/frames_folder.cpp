@@ -52,7 +52,7 @@ Result<Listing> read_listing(const std::filesystem::path& path) {
     return wrong("field of view out of range");
   if (out.files.empty()) return wrong("lists no frames");
   if (!std::all_of(out.files.begin(), out.files.end(), is_plain))
-    return wrong("names a frame in another folder");
+    return wrong("lists a frame in another folder");
   return out;
 }
 
@@ -80,7 +80,7 @@ Result<Frames> read_frames(const std::filesystem::path& folder, const Context& c
     HP_ASSIGN_OR_RETURN(const image::Grey16Image grey, image::read_grey16(path, context));
     if (grey.width != listing.width || grey.height != listing.height)
       return fail(Code::kDataLoss, path.string() +
-                                       ": its size differs from that in frames.json. "
+                                       ": the image size differs from the size in frames.json. "
                                        "Capture the frames again");
     out.frames[i] = {grey.width, grey.height,
                      std::vector<float>(grey.grey.begin(), grey.grey.end())};

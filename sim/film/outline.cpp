@@ -151,8 +151,8 @@ Result<std::vector<Vector2d>> read_corners(const std::string& file) {
                 file + ": not a list of corners. Write [[x, y], [x, y], ...] in mm");
   }
   if (json.size() > kMaxCorners) {
-    return fail(Code::kOutOfRange,
-                fmt::format("{}: {} corners. Use at most {}", file, json.size(), kMaxCorners));
+    return fail(Code::kOutOfRange, fmt::format("{}: {} corners are too many. Use at most {}", file,
+                                               json.size(), kMaxCorners));
   }
   std::vector<Vector2d> corners;
   for (const auto& corner : json) {
@@ -174,8 +174,9 @@ Result<Outline> read_polygon(const std::string& name, const std::string& file) {
   out.name = name;
   HP_ASSIGN_OR_RETURN(out.polygon, read_corners(file));
   if (out.polygon.size() < 3) {
-    return fail(Code::kInvalidArgument,
-                fmt::format("{}: {} corners. Give at least three", file, out.polygon.size()));
+    return fail(
+        Code::kInvalidArgument,
+        fmt::format("{}: {} corners are too few. Give at least three", file, out.polygon.size()));
   }
   out.min_mm = out.max_mm = out.polygon[0];
   for (const Vector2d& corner : out.polygon) {

@@ -88,15 +88,16 @@ Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
   std::string reason;
   if (unknown.taken_for < 0) {
     reason = fmt::format(
-        "over its plausible range ({}) it moves the measured points by only {} mm, too little "
-        "against residuals of {} mm. Measure more points, where the film was stretched most",
+        "changing the parameter over its plausible range ({}) moves the measured points by only "
+        "{} mm, too little compared with residuals of {} mm. Measure more points where the film "
+        "was stretched most",
         what.plausible, three_digits(unknown.moves_mm), three_digits(residual_mm));
   } else {
     reason = fmt::format(
-        "these points cannot distinguish it from {}: both move the points in the same way, "
-        "and its interval would exceed the plausible range ({}). Measure points spread farther "
-        "over the "
-        "film, or hold the other parameter",
+        "these points cannot distinguish the parameter from {}: changing either of them moves the "
+        "points in the same way, and the interval of the parameter would be wider than its "
+        "plausible range ({}). Measure points spread farther over the film, or fit only one of "
+        "the two parameters",
         describe(free[unknown.taken_for], start).name, what.plausible);
   }
   return {what.name, reason};
@@ -104,11 +105,12 @@ Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
 
 std::vector<Undetermined> never_determined() {
   const std::string boundary =
-      "the velocity is given all along the film's edges, so it drops out of the quasistatic "
-      "sheet and no landing point depends on it";
-  return {{"young_modulus_mpa", boundary},
-          {"density_kg_per_m3", boundary},
-          {"thickness_mm", "landing points depend only on the ratio of ink_ratio_mm to it"}};
+      "the velocity is prescribed along all edges of the film, so the parameter cancels out of the "
+      "equations of the quasistatic sheet, and no landing point depends on it";
+  return {
+      {"young_modulus_mpa", boundary},
+      {"density_kg_per_m3", boundary},
+      {"thickness_mm", "landing points depend only on the ratio of ink_ratio_mm to thickness_mm"}};
 }
 
 }  // namespace hydroprint::fit

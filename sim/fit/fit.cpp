@@ -89,7 +89,8 @@ class Fitting {
       if (!options_.drop_outliers || outliers == 0 || round == kMostOutlierRounds) break;
       for (PointResult& p : out_.points) {
         if (p.is_used() && p.is_outlier) {
-          p.left_out = "an outlier, beyond 4 robust standard deviations (--drop-outliers)";
+          p.left_out =
+              "an outlier: the residual exceeds 4 robust standard deviations (--drop-outliers)";
         }
       }
       HP_RETURN_IF_ERROR(check_enough(out_.points, options_.points_name));
@@ -121,7 +122,7 @@ class Fitting {
       PointResult& p = out_.points[i];
       p.before_mm = p.after_mm = before[i];
       if (p.is_used() && !before[i].allFinite()) {
-        p.left_out = "no film arrives there with the starting profile";
+        p.left_out = "no film reaches the measured point with the starting profile";
       }
     }
     return check_enough(out_.points, options_.points_name);
@@ -132,7 +133,8 @@ class Fitting {
     if (ink == free_.end() || dip_.ink.total_mm2() > 0) return;
     out_.undetermined.push_back(
         {"ink_ratio_mm",
-         "without ink nothing depends on it. Specify the printed image (--ink-image)"});
+         "without ink, no landing point depends on this parameter. Specify the printed image "
+         "(--ink-image)"});
     free_.erase(ink);
   }
 
@@ -225,7 +227,8 @@ class Fitting {
       const bool is_known =
           at_.jacobian.middleRows(static_cast<Index>(2 * i), 2).allFinite() && after[i].allFinite();
       if (p.is_used() && !is_known) {
-        p.left_out = "film arrives there only with some of the profiles that were tried";
+        p.left_out =
+            "film reaches the measured point only with some of the profiles that were tried";
       }
     }
     return {};
@@ -266,15 +269,16 @@ class Fitting {
                                         [](const auto& p) { return p.is_used() && p.is_outlier; });
     if (outliers > 0) {
       out_.warnings.push_back({"outliers",
-                               fmt::format("{} points lie beyond 4 robust standard deviations but "
-                                           "still count; see residuals.csv, or use --drop-outliers",
+                               fmt::format("{} points have residuals above 4 robust "
+                                           "standard deviations but are still used; "
+                                           "see residuals.csv, or use --drop-outliers",
                                            outliers),
                                options_.points_name});
     }
     if (!out_.settled) {
       out_.warnings.push_back({"fit_not_settled",
-                               "the fit ended before its steps became small; start from "
-                               "another profile",
+                               "the fit stopped before it converged; start from another "
+                               "profile",
                                options_.points_name});
     }
   }

@@ -47,7 +47,8 @@ Description describe(Parameter parameter, const film::Profile& profile) {
             kMostInk_mm / range, 0.03};
   }
   if (parameter == Parameter::kDrag) {
-    return {"drag_length_mm", "none to 10 mm", 0, kMostDrag_per_mm2 / range, 0.01};
+    return {"drag_length_mm", "no drag to a drag length of 10 mm", 0, kMostDrag_per_mm2 / range,
+            0.01};
   }
   return {parameter == Parameter::kSwellingX ? "swelling_x" : "swelling_y", "1 to 1.3", 0,
           kMostGrowth / range, 0.03};

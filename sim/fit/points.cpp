@@ -19,8 +19,9 @@ Result<std::vector<Point>> read_points(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const double* at = table.row(i);
     if (std::any_of(at, at + 5, [](double x) { return std::abs(x) > kFarthest_mm; })) {
-      return fail(Code::kOutOfRange,
-                  table.place(i) + ": a coordinate is beyond 1e4 mm. Write coordinates in mm");
+      return fail(
+          Code::kOutOfRange,
+          table.place(i) + ": a coordinate exceeds 1e4 mm. Check that the coordinates are in mm");
     }
     points.push_back({{at[0], at[1]}, {at[2], at[3], at[4]}});
   }

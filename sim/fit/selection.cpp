@@ -49,15 +49,16 @@ std::string main_reason(const std::vector<PointResult>& points) {
 std::string geometric_objection(const Point& point, const Spot& spot, const waterline::Body& body,
                                 const film::Outline& outline) {
   if (!(spot.distance_mm <= kOffSurface_mm)) {
-    return "it lies more than 1 mm off the object's surface";
+    return "the measured point lies more than 1 mm off the object's surface";
   }
-  if (!film::contains(outline, point.film_mm)) return "its printed point lies beyond the film";
+  if (!film::contains(outline, point.film_mm)) return "the printed point lies outside the film";
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     normal += spot.barycentric[i] * body.corner_normals[spot.triangle][i];
   }
   if (-normal.normalized().z() < std::cos(waterline::kThetaLimit_rad)) {
-    return "the surface there is steeper than 170 degrees to the water, where eq. (1) is clamped";
+    return "the surface at the measured point faces up, within 10 degrees of level, where theta in "
+           "eq. (1) is clamped";
   }
   return {};
 }

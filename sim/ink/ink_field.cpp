@@ -49,9 +49,10 @@ double rounded_in(double t) { return t >= 0 ? std::min(t, kMostInk) : 0; }
 
 tl::unexpected<Error> not_ink(const InkGrid& grid, std::size_t cell, double t) {
   const auto columns = static_cast<std::size_t>(grid.columns);
-  return fail(Code::kInvalidArgument,
-              fmt::format("ink: cell ({}, {}) holds {}. Give amounts from 0 to 4", cell % columns,
-                          cell / columns, t));
+  return fail(
+      Code::kInvalidArgument,
+      fmt::format("ink: the amount in cell ({}, {}), {}, is out of range. Give amounts from 0 to 4",
+                  cell % columns, cell / columns, t));
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ InkGrid ink_grid(const film::Outline& outline, double cell_mm) {
 Result<InkField> InkField::from_means(const InkGrid& grid, const std::vector<double>& means) {
   if (means.size() != grid.count()) {
     return fail(Code::kInvalidArgument,
-                fmt::format("ink: {} amounts for a grid of {} cells. Give one per cell",
+                fmt::format("ink: {} amounts for a grid of {} cells. Give one amount per cell",
                             means.size(), grid.count()));
   }
   for (std::size_t cell = 0; cell < means.size(); ++cell) {

@@ -38,10 +38,11 @@ Status check_whole(const std::string& bytes, const std::string& name) {
     for (int i = 0; i < 4; ++i) announced = announced << 8 | static_cast<unsigned char>(bytes[i]);
   }
   if (bytes.size() < kHeader_bytes || bytes.size() < announced) {
-    return fail(Code::kDataLoss,
-                fmt::format("{}: truncated, or not an ICC profile. Its {} bytes should be at least "
-                            "{}. Get the file again",
-                            name, bytes.size(), std::max(announced, kHeader_bytes)));
+    return fail(
+        Code::kDataLoss,
+        fmt::format("{}: truncated, or not an ICC profile; the file has {} bytes instead of at "
+                    "least {}. Download or export the file again",
+                    name, bytes.size(), std::max(announced, kHeader_bytes)));
   }
   return {};
 }

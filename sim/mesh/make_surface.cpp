@@ -83,8 +83,8 @@ void warn_about_size(const Model& model, Surface& surface) {
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
   if (found.inconsistent > 0 || found.one_sided > 0)
     warn(surface, model, "inconsistent_orientation",
-         fmt::format("{} faces were turned over to agree with their neighbours; {} edges disagree "
-                     "in any orientation",
+         fmt::format("{} faces were turned over to agree with their neighbours; at {} edges, the "
+                     "faces cannot be made to agree",
                      found.inconsistent, found.one_sided));
   if (found.inside_out > 0)
     warn(surface, model, "inside_out",
@@ -92,9 +92,9 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
                      found.shells));
   if (found.shells > 1)
     warn(surface, model, "many_shells",
-         fmt::format(
-             "{} separate shells ({} of them cavities inside another shell): their union is used",
-             found.shells, found.cavities));
+         fmt::format("the mesh has {} separate shells ({} of them cavities inside another shell); "
+                     "their union is used",
+                     found.shells, found.cavities));
 }
 
 /// @return true if every edge has two faces with opposite directions
@@ -115,7 +115,7 @@ bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, 
   }
   if (open > 0)
     warn(surface, model, "mesh_open",
-         fmt::format("{} boundary edges: the openings are treated as closed by straight lines at "
+         fmt::format("the mesh has {} boundary edges; its openings are closed by straight lines at "
                      "each waterline",
                      open));
   if (crowded > 0)
@@ -136,7 +136,8 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   auto weld = weld_points(model.vertices, tolerance);
   const auto kept = proper_triangles(model, weld, tolerance);
   if (kept.empty())
-    return fail(Code::kInvalidArgument, name + ": no face has an area; export the model again");
+    return fail(Code::kInvalidArgument,
+                name + ": all faces have zero area; export the model again");
   if (kept.size() < model.triangles.size())
     warn(surface, model, "zero_area_faces",
          fmt::format("{} faces whose corners coincide or lie on a line were dropped",
@@ -159,7 +160,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     return fail(
         Code::kResourceExhausted,
         fmt::format(
-            "{}: subdividing its faces to edges of {} mm would take {}; give a smaller --scale",
+            "{}: subdividing the faces to edges of {} mm would need {}; give a smaller --scale",
             name, max_edge_mm, subdivided.error().message));
   if (!subdivided) return tl::unexpected(std::move(subdivided).error());
   work = std::move(*subdivided);

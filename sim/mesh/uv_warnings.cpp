@@ -97,13 +97,13 @@ Warnings uv_warnings(const Model& model) {
   const double mirrored = mirrored_share(model);
   if (overlapping > kReportedShare)
     warnings.push_back({"uv_overlapping",
-                        percent(overlapping) + " of the texture in use is used by several faces: "
-                                               "they all get the same picture",
+                        percent(overlapping) + " of the used texture area is shared by several "
+                                               "faces, which all get the same picture",
                         model.path.string()});
   if (mirrored > kReportedShare)
     warnings.push_back({"uv_mirrored",
-                        percent(mirrored) + " of the texture in use is mirrored on the object: it "
-                                            "is printed that way",
+                        percent(mirrored) + " of the used texture area is mirrored on the "
+                                            "object and is printed that way",
                         model.path.string()});
   return warnings;
 }

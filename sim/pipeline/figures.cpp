@@ -73,8 +73,8 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   const waterline::Trap& largest = traps.front();
   warnings.push_back(
       {"film_trapped",
-       fmt::format("the waterline closes around a piece of film of up to {} mm2{}, which after "
-                   "that can only stretch. Turn the object so that it enters the water edge first",
+       fmt::format("the waterline closes around a piece of film of up to {} mm2{}, which "
+                   "can then only stretch. Turn the object so that it enters the water edge first",
                    three_digits(largest.area_mm2),
                    and_others(static_cast<std::ptrdiff_t>(traps.size()) - 1)),
        where_of(largest)});
@@ -158,13 +158,14 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   if (figures.stopped_at_edge) {
     warnings.push_back({"film_edge_reached",
                         fmt::format("the waterline reaches the edge of the film {}; the dip ends "
-                                    "there and nothing above it is printed",
+                                    "there, and the part of the object above that waterline is "
+                                    "not printed",
                                     options.outline.name),
                         at_immersion(figures.depth_mm)});
   }
   if (figures.clamped_share > 0) {
     warnings.push_back({"theta_clamped",
-                        fmt::format("{} of the surface faces up, within 10 degrees of level; there "
+                        fmt::format("{} of the surface faces up, within 10 degrees of level, where "
                                     "theta is clamped at 170 degrees: do not trust the map there",
                                     percent(figures.clamped_share)),
                         "surface"});
@@ -179,11 +180,12 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
          "surface"});
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
-    warnings.push_back({"stretch_beyond_stokes",
-                        fmt::format("the film is stretched up to {} times; beyond {} Stokes flow "
-                                    "alone is not accurate (section 4.4). Use --model sheet",
-                                    three_digits(figures.stretch_max), kStokesStretch),
-                        "surface"});
+    warnings.push_back(
+        {"stretch_beyond_stokes",
+         fmt::format("the film is stretched up to {} times; above {} times, "
+                     "Stokes flow alone is not accurate (paper, section 4.4). Use --model sheet",
+                     three_digits(figures.stretch_max), kStokesStretch),
+         "surface"});
   }
   if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
     warnings.push_back({"drag_ignored",
@@ -213,10 +215,12 @@ Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm
   if (unsettled_mm > kUnsettled_mm) {
     warnings.push_back(
         {"sheet_unsettled",
-         fmt::format("the thickness of the film does not settle, as happens where it tears or "
-                     "folds; another sweep would still move it by {} mm. Do not trust the result "
-                     "where the stretch is extreme; turn the object or dip less deep",
-                     three_digits(unsettled_mm)),
+         fmt::format(
+             "the thickness of the film does not converge, which happens where the film "
+             "tears or folds; another sweep would still move the film by {} mm. "
+             "Do not trust the result where the stretch is extreme; turn the object or dip less "
+             "deep",
+             three_digits(unsettled_mm)),
          "film"});
   }
   return warnings;

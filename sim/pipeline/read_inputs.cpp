@@ -26,8 +26,10 @@ bool is_small(const std::filesystem::path& file) {
 Status check_materials(const mesh::Model& model) {
   for (const Warning& warning : model.warnings) {
     if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
-    return fail(Code::kNotFound, warning.where + ": " + warning.message +
-                                     ". Put it into the folder of the model, or specify a texture");
+    return fail(
+        Code::kNotFound,
+        warning.where + ": " + warning.message +
+            ". Put the complete material file into the model's folder, or specify a texture");
   }
   return {};
 }

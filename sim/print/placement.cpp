@@ -35,8 +35,8 @@ Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& set
   for (const Vector2d& size_mm : {settings.paper_mm, turned(settings.paper_mm)}) {
     if ((size_mm - outline.size_mm()).minCoeff() >= -1e-6) return size_mm;
   }
-  return fail(Code::kOutOfRange,
-              "paper: smaller than the film " + outline.name + ". Use paper of its size or larger");
+  return fail(Code::kOutOfRange, "paper: smaller than the film " + outline.name +
+                                     ". Use paper of the film's size or larger");
 }
 
 /// Returns the outline, seen from above, of the part of the object up to `height_mm` above its
@@ -250,7 +250,7 @@ Result<Placement> placement(const mesh::Surface& surface, const std::optional<Po
   if (!has_ruler || !text) {
     out.warnings.push_back(
         {"template_cut_off",
-         "the ruler or the text is left out, because there is no room beside the "
+         "the ruler or the text is left out, because there is not enough room beside the "
          "object. Use larger paper",
          "page 1"});
   }

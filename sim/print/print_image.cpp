@@ -33,11 +33,12 @@ Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
   }
   const image::FilmGrid grid = image::film_grid(outline, kMmPerInch / dpi);
   if (grid.columns == image.width && grid.rows == image.height) return dpi;
-  return fail(Code::kInvalidArgument,
-              fmt::format("{}: {} pixels, but a film image of {} at {} dpi has {}. Give the --film "
-                          "and --dpi of the image",
-                          name, size_text(image.width, image.height), outline.name, dpi,
-                          size_text(grid.columns, grid.rows)));
+  return fail(
+      Code::kInvalidArgument,
+      fmt::format("{}: has {} pixels, but a film image of {} at {} dpi has {}. Give the --film "
+                  "and --dpi of the image",
+                  name, size_text(image.width, image.height), outline.name, dpi,
+                  size_text(grid.columns, grid.rows)));
 }
 
 void mirror(image::PrinterImage& image) {

@@ -67,12 +67,14 @@ Status check_replaceable(const fs::path& dir) {
   }
   if (!other_file.empty()) {
     return fail(Code::kAlreadyExists,
-                dir.string() + ": holds " + other_file +
+                dir.string() + ": contains " + other_file +
                     ", which is not an artifact of an earlier run. Choose another --out");
   }
   if (!empty && !has_report) {
-    return fail(Code::kAlreadyExists,
-                dir.string() + ": not empty and has no report.json. Choose another --out");
+    return fail(
+        Code::kAlreadyExists,
+        dir.string() +
+            ": not empty, and has neither report.json nor frames.json. Choose another --out");
   }
   return {};
 }
@@ -183,7 +185,7 @@ Result<OutFolder> OutFolder::plan(const fs::path& dir) {
   if (!target.has_filename()) target = target.parent_path();
   if (error || !target.has_filename()) {
     return fail(Code::kInvalidArgument,
-                dir.string() + ": not a folder to write to. Choose another --out");
+                dir.string() + ": not usable as the output folder. Choose another --out");
   }
   if (!fs::is_directory(target.parent_path(), error)) {
     return fail(Code::kNotFound, target.parent_path().string() +

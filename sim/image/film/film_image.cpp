@@ -190,11 +190,9 @@ class Block {
 
 Status check_size(const film::Outline& outline, double dpi) {
   if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
-    return fail(
-        Code::kOutOfRange,
-        fmt::format(
-            "dpi {}: must be from {} to {}. Give the resolution of the printer, such as 300 or 600",
-            dpi, kMinDpi, kMaxDpi));
+    return fail(Code::kOutOfRange, fmt::format("{} dpi is out of range ({} to {}). Give the "
+                                               "resolution of the printer, such as 300 or 600",
+                                               dpi, kMinDpi, kMaxDpi));
   }
   const Eigen::Vector2d size_px = outline.size_mm() * dpi / 25.4;
   if (!(size_px.x() * size_px.y() <= kMaxFilmImage_px)) {

@@ -40,9 +40,10 @@ void draw(const mesh::Surface& surface, const flow::SurfaceMap& values,
 Result<FilmMap> film_map(const mesh::Surface& surface, const flow::FlowMap& map,
                          const film::Outline& outline, double cell_mm, const Context& context) {
   if (!(cell_mm >= kMinCell_mm && cell_mm <= outline.size_mm().minCoeff())) {
-    return fail(Code::kOutOfRange, fmt::format("film map: cell size {} mm is out of range. Choose "
-                                               "from {} mm to the film's shorter side",
-                                               cell_mm, kMinCell_mm));
+    return fail(Code::kOutOfRange,
+                fmt::format("film map: cell size {} mm is out of range. Choose a size "
+                            "from {} mm to the film's shorter side",
+                            cell_mm, kMinCell_mm));
   }
   FilmMap out;
   out.grid = film_grid(outline, cell_mm);

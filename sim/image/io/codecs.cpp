@@ -140,7 +140,8 @@ Result<Opened> open(IOProxy& proxy, const std::string& name) {
   Opened out{ImageInput::create(decoder_name(format), false, nullptr), {}};
   if (!out.input || !out.input->set_ioproxy(&proxy)) {
     return fail(Code::kUnimplemented,
-                name + ": no decoder for " + decoder_name(format) + ". Convert the image to PNG");
+                name + ": no decoder for " + decoder_name(format) +
+                    ". Convert the image to another format (PNG, JPEG or TIFF)");
   }
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);

@@ -138,7 +138,7 @@ Result<Format> check_header(const ByteSource& bytes, const std::string& name) {
     return Format::kTiff;
   }
   return fail(Code::kInvalidArgument,
-              name + ": not a PNG, JPEG or TIFF image. Convert it to one of them");
+              name + ": not a PNG, JPEG or TIFF image. Use an image in one of these formats");
 }
 
 Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_size, Format format,
@@ -150,10 +150,11 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                             name, size));
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
-    return fail(Code::kOutOfRange,
-                fmt::format("{}, header: {}, more than {} pixels per side or {} million in all. "
-                            "Scale the image down",
-                            name, size, kMaxImageSide_px, kMaxImageArea_px / 1'000'000));
+    return fail(
+        Code::kOutOfRange,
+        fmt::format("{}, header: {} exceed the limit of {} pixels per side or {} million in all. "
+                    "Scale the image down",
+                    name, size, kMaxImageSide_px, kMaxImageArea_px / 1'000'000));
   }
   // Deflate compresses at most 1032 to 1, and here a pixel has at least one bit; the other formats
   // compress less than 5000 to 1.

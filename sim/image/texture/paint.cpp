@@ -107,9 +107,9 @@ class PaintLoader {
     const auto& uvs = model_.corner_uvs;
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {
       return fail(Code::kInvalidArgument,
-                  path.string() + ": cannot be laid on " + model_.path.string() +
+                  path.string() + ": cannot be applied to " + model_.path.string() +
                       ", which has no texture coordinates (UVs). Unwrap the model in a 3D editor, "
-                      "or leave the texture out");
+                      "or omit the texture");
     }
     HP_ASSIGN_OR_RETURN(ReadImage read, read_image(path, context_));
     HP_ASSIGN_OR_RETURN(const int index, add_texture(std::move(read), mesh::Wrap::kRepeat,
@@ -217,7 +217,7 @@ class PaintLoader {
               name, kMaxImageArea_px / 1'000'000));
     }
     if (read.had_alpha) {
-      warn("alpha_over_white", "the texture is transparent in places; it was laid over white",
+      warn("alpha_over_white", "the texture is transparent in places and was blended with white",
            name);
     }
     pending_.push_back({std::move(read.image), wrap_u, wrap_v});

@@ -50,7 +50,7 @@ tl::unexpected<Error> damaged(const std::filesystem::path& path, std::string_vie
 }
 
 Status check_face_count(std::size_t faces, const std::filesystem::path& path) {
-  if (faces == 0) return bad_input(path, "", "there are no faces; export a mesh");
+  if (faces == 0) return bad_input(path, "", "the file has no faces; export a mesh");
   if (faces > kMaxFaces)
     return bad_input(path, "",
                      fmt::format("has more than {} faces; simplify the model", kMaxFaces));

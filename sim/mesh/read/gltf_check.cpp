@@ -67,7 +67,9 @@ Status check_extensions(const json& root, const std::filesystem::path& path) {
         name.starts_with("KHR_materials_") || name == "KHR_lights_punctual")
       continue;
     return bad_input(path, "extensionsRequired",
-                     "needs " + name + ", which is not supported; export without compression");
+                     "needs " + name +
+                         ", which is not supported; export without this extension, "
+                         "for example without compression");
   }
   return {};
 }

@@ -137,7 +137,7 @@ class ObjChecker {
   [[nodiscard]] tl::unexpected<Error> out_of_range(std::size_t line, std::string_view word,
                                                    std::size_t count, std::string_view what) const {
     return broken(line,
-                  fmt::format("a face uses {} {}, but there are {}", what, quoted(word), count));
+                  fmt::format("a face uses {} {}, but only {} exist", what, quoted(word), count));
   }
 
   std::string_view rest_;

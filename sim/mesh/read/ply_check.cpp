@@ -99,7 +99,7 @@ class PlyChecker {
         facts_.texture = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
       }
     }
-    return bad_header("the header does not end");
+    return bad_header("the header has no end_header");
   }
 
   Status read_format(std::string_view word) {
@@ -162,9 +162,9 @@ class PlyChecker {
       if (!has(*vertex, [&](const Property& p) {
             return p.name == axis && !p.count && p.type.kind == Kind::kReal;
           }))
-        return bad_header("the vertices lack a real property " + std::string(axis));
+        return bad_header("the vertices lack the floating-point property " + std::string(axis));
     if (face == nullptr || face->count == 0)
-      return bad_input(path_, "header", "there are no faces; export a mesh, not a point cloud");
+      return bad_input(path_, "header", "the file has no faces; export a mesh, not a point cloud");
     if (!has(*face, [](const Property& p) { return p.is_corners && p.type.kind != Kind::kReal; }))
       return bad_header("the faces lack a list vertex_indices");
     facts_.vertices = vertex->count;
@@ -214,8 +214,9 @@ class PlyChecker {
         return bad_item(element, item,
                         "is truncated or contains a value that is not a finite number");
       if (property.is_corners && !(*value >= 0 && *value < static_cast<double>(facts_.vertices)))
-        return bad_item(element, item,
-                        fmt::format("uses a vertex out of range; there are {}", facts_.vertices));
+        return bad_item(
+            element, item,
+            fmt::format("uses a vertex out of range (the file has {})", facts_.vertices));
     }
     return {};
   }

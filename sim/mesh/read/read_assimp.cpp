@@ -42,7 +42,8 @@ Status append(const aiMesh& mesh, const std::filesystem::path& path, Model& mode
     polygon.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] >= mesh.mNumVertices)
-        return bad_input(path, fmt::format("face {}", f), "uses a vertex out of range");
+        return bad_input(path, fmt::format("face {}", f),
+                         "uses a vertex out of range; export the file again");
       polygon.push_back(shift + static_cast<int>(face.mIndices[k]));
     }
     if (polygon.size() < 3) continue;
@@ -100,8 +101,8 @@ Result<Model> read_ply(std::string bytes, const std::filesystem::path& path,
   if (facts.has_face_uvs) {
     model.corner_uvs.clear();
     model.warnings.push_back({"face_uvs_ignored",
-                              "texture coordinates listed per face are not read from PLY files; "
-                              "use OBJ for them",
+                              "texture coordinates listed per face are ignored in PLY files; "
+                              "use OBJ to keep them",
                               path.string()});
   }
   if (!facts.texture.empty()) {

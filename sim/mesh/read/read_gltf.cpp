@@ -133,7 +133,7 @@ class GltfImporter {
     const auto* node = entry(source_.nodes, index);
     if (node == nullptr) return bad(place, "does not exist");
     if (depth > kMaxDepth || ++visited_ > kMaxNodes)
-      return bad(place, "contains itself, or the scene has too many nodes");
+      return bad(place, "contains itself or is nested too deeply, or the scene has too many nodes");
     const Eigen::Affine3d transform = parent * local_transform(*node);
     if (node->mesh >= 0) {
       skinned_ += node->skin >= 0 ? 1 : 0;
@@ -169,7 +169,7 @@ class GltfImporter {
     HP_ASSIGN_OR_RETURN(const auto uvs, read_uvs(primitive, place));
     for (auto c : corners) {
       if (c.minCoeff() < 0 || c.maxCoeff() >= count)
-        return bad(place, fmt::format("uses a vertex out of range; there are {}", count));
+        return bad(place, fmt::format("uses a vertex out of range (the mesh has {})", count));
       if (mirrored) std::swap(c[1], c[2]);
       std::array<Eigen::Vector2f, 3> corner_uvs;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -203,7 +203,7 @@ class GltfImporter {
       for (std::size_t i = 0; i < accessor->size(); ++i) order.push_back(static_cast<int>(i));
     }
     if (mode == TINYGLTF_MODE_TRIANGLES && order.size() % 3 != 0)
-      return bad(place, "its indices are not whole triangles");
+      return bad(place, "the number of its indices is not a multiple of 3");
     std::vector<Eigen::Vector3i> result;
     const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
     for (std::size_t i = 0; i + 2 < order.size(); i += step) {
@@ -386,7 +386,7 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_gltf(bytes, path));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   const auto size = static_cast<unsigned int>(bytes.size());
-  if (size != bytes.size()) return bad_input(path, "", "is too large; simplify the model");
+  if (size != bytes.size()) return bad_input(path, "", "the file is too large; simplify the model");
   bytes.append(64, '\0');  // the importer's check of the last chunk is off by eight bytes
 
   std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";

@@ -55,7 +55,7 @@ Status check_indices(const Model& model) {
   for (std::size_t t = 0; t < model.triangles.size(); ++t)
     if (model.triangles[t].minCoeff() < 0 || model.triangles[t].maxCoeff() >= count)
       return damaged(model.path, fmt::format("triangle {}", t),
-                     fmt::format("uses a vertex out of range; there are {}", count));
+                     fmt::format("uses a vertex out of range (the file has {})", count));
   return {};
 }
 
@@ -80,7 +80,7 @@ Status drop_degenerate(Model& model) {
     dropped += kept[i] ? 0 : 1;
   }
   if (dropped == kept.size())
-    return damaged(model.path, "", fmt::format("none of its {} faces has an area", dropped));
+    return damaged(model.path, "", fmt::format("all {} faces have zero area", dropped));
   if (dropped == 0) return {};
   keep(model.triangles, kept);
   keep(model.corner_uvs, kept);

@@ -126,7 +126,7 @@ class ObjImporter {
     }
     if (!found)
       warn("material_file_missing",
-           "the material file" + line + " was not found: its colours and textures are not used");
+           "the material file" + line + " was not found, so its colours and textures are missing");
   }
 
   void read_materials(const std::filesystem::path& path) {
@@ -245,8 +245,9 @@ class ObjImporter {
       warn("vertex_colours_ignored", "only some vertices have colours: the colours are not used");
     const bool already_said = files_.empty() && !facts_.libraries.empty();
     if (!missing_.empty() && !already_said)
-      warn("material_missing", "material \"" + *missing_.begin() +
-                                   "\" is not in the material file: its faces have no colour");
+      warn("material_missing",
+           "material \"" + *missing_.begin() +
+               "\" is not defined in the material file, so its faces have no colour");
   }
 
   void add_default_material() {

@@ -30,10 +30,12 @@ Result<std::size_t> check_binary(std::string_view bytes, const std::filesystem::
   if (bytes.size() < kHeaderBytes) return damaged(path, "header", "the file is too short");
   const std::uint64_t facets = read_at<std::uint32_t>(bytes, 80);
   const std::uint64_t room = (bytes.size() - kHeaderBytes) / kFacetBytes;
-  if (facets == 0) return bad_input(path, "header", "there are no facets; export a mesh");
+  if (facets == 0) return bad_input(path, "header", "the file has no facets; export a mesh");
   if (bytes.size() != kHeaderBytes + kFacetBytes * facets)
-    return damaged(path, "header",
-                   fmt::format("announces {} facets, but the file has bytes for {}", facets, room));
+    return damaged(
+        path, "header",
+        fmt::format("announces {} facets, which does not match the file's size (room for {})",
+                    facets, room));
   for (std::uint64_t f = 0; f < facets; ++f)
     for (std::size_t k = 3; k < 12; ++k)
       if (!std::isfinite(read_at<float>(bytes, kHeaderBytes + kFacetBytes * f + 4 * k)))
@@ -63,7 +65,7 @@ class AsciiChecker {
       ++facets;
     }
     if (!closed) return bad("the file ends before \"endsolid\"");
-    if (facets == 0) return bad_input(path_, "", "there are no facets; export a mesh");
+    if (facets == 0) return bad_input(path_, "", "the file has no facets; export a mesh");
     return facets;
   }
 

@@ -26,20 +26,23 @@ TEST(CsvFile, BlanksAndEmptyLinesAtTheEndAreIgnored) {
 
 TEST(CsvFile, MalformedTablesAreRefusedByLineWithARemedy) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"", "line 1: wrong header: no column a_mm. Write a_mm,b"},
-      {"1,2\n", "line 1: wrong header: no column a_mm. Write a_mm,b"},
-      {"a_mm\n1\n", "line 1: wrong header: no column b. Write a_mm,b"},
+      {"", "line 1: wrong header: column a_mm is missing. Write a_mm,b"},
+      {"1,2\n", "line 1: wrong header: column a_mm is missing. Write a_mm,b"},
+      {"a_mm\n1\n", "line 1: wrong header: column b is missing. Write a_mm,b"},
       {"b,a_mm\n1,2\n", "line 1: wrong header. Write a_mm,b"},
       {"a_mm,b,c\n1,2,3\n", "line 1: wrong header. Write a_mm,b"},
-      {"a_mm,b\n1,2\n3\n", "line 3: not 2 finite numbers: the number of cells is 1. Write a_mm,b"},
-      {"a_mm,b\n1,2,3\n", "line 2: not 2 finite numbers: the number of cells is 3. Write a_mm,b"},
-      {"a_mm,b\n1,\n", "line 2: not 2 finite numbers: b is ''. Write a_mm,b"},
-      {"a_mm,b\n1,nan\n", "line 2: not 2 finite numbers: b is 'nan'. Write a_mm,b"},
-      {"a_mm,b\n-inf,1\n", "line 2: not 2 finite numbers: a_mm is '-inf'. Write a_mm,b"},
-      {"a_mm,b\n1,1e999\n", "line 2: not 2 finite numbers: b is '1e999'. Write a_mm,b"},
-      {"a_mm,b\n1,two\n", "line 2: not 2 finite numbers: b is 'two'. Write a_mm,b"},
-      {"a_mm,b\n1,2x\n", "line 2: not 2 finite numbers: b is '2x'. Write a_mm,b"},
-      {"a_mm,b\n\n1,2\n", "line 2: not 2 finite numbers: the number of cells is 0. Write a_mm,b"},
+      {"a_mm,b\n1,2\n3\n",
+       "line 3: expected 2 finite numbers, but the number of cells is 1. Write a_mm,b"},
+      {"a_mm,b\n1,2,3\n",
+       "line 2: expected 2 finite numbers, but the number of cells is 3. Write a_mm,b"},
+      {"a_mm,b\n1,\n", "line 2: expected 2 finite numbers, but b is ''. Write a_mm,b"},
+      {"a_mm,b\n1,nan\n", "line 2: expected 2 finite numbers, but b is 'nan'. Write a_mm,b"},
+      {"a_mm,b\n-inf,1\n", "line 2: expected 2 finite numbers, but a_mm is '-inf'. Write a_mm,b"},
+      {"a_mm,b\n1,1e999\n", "line 2: expected 2 finite numbers, but b is '1e999'. Write a_mm,b"},
+      {"a_mm,b\n1,two\n", "line 2: expected 2 finite numbers, but b is 'two'. Write a_mm,b"},
+      {"a_mm,b\n1,2x\n", "line 2: expected 2 finite numbers, but b is '2x'. Write a_mm,b"},
+      {"a_mm,b\n\n1,2\n",
+       "line 2: expected 2 finite numbers, but the number of cells is 0. Write a_mm,b"},
   };
   for (const auto& [csv, text] : cases) {
     const auto read = table(csv);

@@ -30,12 +30,12 @@ TEST(PoseFile, MissingKeysMeanIdentity) {
 TEST(PoseFile, InvalidPosesAreRefusedByFileAndKey) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"rotation": [1,0,0,0]})", "rotation: not a known key"},
-      {R"({"rotation_wxyz": [0,0,0,0]})", "rotation_wxyz: too short"},
-      {R"({"rotation_wxyz": [1e-9,0,0,0]})", "rotation_wxyz: too short"},
+      {R"({"rotation_wxyz": [0,0,0,0]})", "rotation_wxyz: the quaternion is too close to zero"},
+      {R"({"rotation_wxyz": [1e-9,0,0,0]})", "rotation_wxyz: the quaternion is too close to zero"},
       {R"({"rotation_wxyz": [1,0,0]})", "rotation_wxyz: not a list of 4"},
       {R"({"rotation_wxyz": [1,0,0,"0"]})", "rotation_wxyz: not a list of 4"},
       {R"({"translation_mm": [1,2,3,4]})", "translation_mm: not a list of 3"},
-      {R"({"translation_mm": [1,2,1e7]})", "translation_mm: beyond"},
+      {R"({"translation_mm": [1,2,1e7]})", "translation_mm: a coordinate exceeds"},
       {R"({"translation_mm": [1,2,1e999]})", "pose.json: "},
       {R"([1,0,0,0])", "not a pose"},
       {"{\"rotation_wxyz\": [1,0,\n,0]}", "line 2, column 1"},

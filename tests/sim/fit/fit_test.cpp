@@ -173,7 +173,7 @@ TEST_F(Ball, PointsThatCannotCountAreLeftOutWithAReason) {
   };
   EXPECT_NE(left_out(4).find("1 mm off"), std::string::npos);
   EXPECT_FALSE(left_out(3).empty());
-  EXPECT_NE(left_out(2).find("beyond the film"), std::string::npos);
+  EXPECT_NE(left_out(2).find("outside the film"), std::string::npos);
   EXPECT_NE(left_out(1).find("outlier"), std::string::npos);
   expect_within_intervals(*outcome, truth());
 }

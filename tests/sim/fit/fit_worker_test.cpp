@@ -232,10 +232,12 @@ TEST_F(FitWorker, ThreadsDoNotChangeTheArtifacts) {
 TEST_F(FitWorker, BadPointsAreRefusedByLineWithARemedy) {
   const std::string header = "film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm\n";
   const std::vector<std::pair<std::string, std::string>> files = {
-      {"film_x_mm,film_y_mm,X_mm,Y_mm\n1,2,3,4\n", "bad.csv: line 1: wrong header: no column Z_mm"},
+      {"film_x_mm,film_y_mm,X_mm,Y_mm\n1,2,3,4\n",
+       "bad.csv: line 1: wrong header: column Z_mm is missing"},
       {header + "1,2,3,nan,5\n",
-       "bad.csv: line 2: not 5 finite numbers: Y_mm is 'nan'. Write film_x_mm"},
-      {header + "1,2,3,4,5\n1,2,x,4,5\n", "bad.csv: line 3: not 5 finite numbers: X_mm is 'x'"},
+       "bad.csv: line 2: expected 5 finite numbers, but Y_mm is 'nan'. Write film_x_mm"},
+      {header + "1,2,3,4,5\n1,2,x,4,5\n",
+       "bad.csv: line 3: expected 5 finite numbers, but X_mm is 'x'"},
       {"", "bad.csv: line 1: wrong header"},
       {header, "bad.csv: line 2: no points"},
       {header + "0,0,0,0,-12\n", "bad.csv: too few points: 1 of 1 can be used"},

@@ -28,14 +28,16 @@ TEST(Points, BadFilesAreRefusedByLineWithARemedy) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "line 1: wrong header"},
       {"film_x_mm,film_y_mm,X_mm,Y_mm\n1,2,3,4\n",
-       "line 1: wrong header: no column Z_mm. " + write},
+       "line 1: wrong header: column Z_mm is missing. " + write},
       {kHeader, "line 2: no points. Write one"},
-      {kHeader + "1,2,3,4\n", "line 2: not 5 finite numbers: the number of cells is 4. " + write},
+      {kHeader + "1,2,3,4\n",
+       "line 2: expected 5 finite numbers, but the number of cells is 4. " + write},
       {kHeader + "1,2,3,4,5\n1,2,nan,4,5\n",
-       "line 3: not 5 finite numbers: X_mm is 'nan'. " + write},
-      {kHeader + "1,2,3,four,5\n", "line 2: not 5 finite numbers: Y_mm is 'four'. " + write},
+       "line 3: expected 5 finite numbers, but X_mm is 'nan'. " + write},
+      {kHeader + "1,2,3,four,5\n",
+       "line 2: expected 5 finite numbers, but Y_mm is 'four'. " + write},
       {kHeader + "1,2,3,4,20000\n",
-       "line 2: a coordinate is beyond 1e4 mm. Write coordinates in mm"},
+       "line 2: a coordinate exceeds 1e4 mm. Check that the coordinates are in mm"},
   };
   for (const auto& [csv, text] : cases) {
     const auto read = points(csv);

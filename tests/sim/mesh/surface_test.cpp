@@ -247,7 +247,7 @@ TEST(MakeSurface, OpenMeshIsReportedWithItsBoundaryEdges) {
   const Surface surface = made(model);
   EXPECT_FALSE(surface.closed);
   ASSERT_TRUE(has_warning(surface, "mesh_open"));
-  EXPECT_EQ(surface.warnings.front().message.substr(0, 17), "4 boundary edges:");
+  EXPECT_EQ(surface.warnings.front().message.substr(0, 30), "the mesh has 4 boundary edges;");
   EXPECT_FALSE(has_warning(surface, "inside_out"));
 }
 

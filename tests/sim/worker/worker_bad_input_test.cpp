@@ -55,7 +55,7 @@ TEST_F(Worker, AFileBeyondTheLimitIsReportedAndNothingStays) {
   ProcessOptions limited;
   limited.limits = {{RLIMIT_FSIZE, 20000}};
   expect_refusal(3, simulate({"--texture", path("texture.png")}),
-                 {"out", "beyond the limit on file sizes"}, limited);
+                 {"out", "larger than the limit on file sizes"}, limited);
 }
 
 TEST_F(Worker, AFullFileSystemIsReportedAndNothingStays) {

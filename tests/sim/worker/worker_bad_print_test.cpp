@@ -37,7 +37,7 @@ class BadPrint : public Worker {
 
 TEST_F(BadPrint, PrintImageErrorsAreOneLine) {
   expect_refusal(3, print_image({"--film", "A3"}),
-                 {"film.png: 827 x 1169 pixels, but a film image of A3 at 71 dpi"});
+                 {"film.png: has 827 x 1169 pixels, but a film image of A3 at 71 dpi"});
   expect_refusal(3, print_image({"--dpi", "300"}), {"has 2480 x 3508"});
   expect_refusal(2, print_image({"--paper", "A99"}), {"paper 'A99'"});
   expect_refusal(3, print_image({"--paper", "30x30"}), {"paper: too small for the film"});

@@ -94,7 +94,7 @@ TEST_F(SceneFile, ErrorsNameFileLineAndRemedy) {
       {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is not a list of 3 numbers"},
       {"[camera]\nat_mm = [0, 0, 0]", "is the camera's own position"},
       {"[camera.sweep]\nvia_mm = [[0, 0, 500], [0, 0, 0]]", "is the camera's own position"},
-      {"[camera]\nclock = \"mine\"", "camera.clock is not known"},
+      {"[camera]\nclock = \"mine\"", "camera.clock has an unknown value"},
       {"[camera.sweep]\nperiod_s = 3", "camera.sweep.via_mm is missing"},
       {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is not a list"},
       {"[camera]\nnoise = 1", "noise is not a known key"}};

@@ -79,7 +79,7 @@ TEST(ReadModel, FacesWithoutAreaAreDroppedWithTheirAttributes) {
 TEST(ReadModel, OnlyFacesWithoutAreaAreRefused) {
   const Folder folder;
   expect_refused(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 2\n"),
-                 "none of its 2 faces has an area");
+                 "all 2 faces have zero area");
 }
 
 TEST(ReadModel, StopsWhenCancelled) {
@@ -187,7 +187,7 @@ TEST(ReadPly, InconsistentTruncatedOrBrokenFilesAreRefused) {
   expect_refused(with("3 2 0 3\n", ""), "face 3: ");
   expect_refused(folder.write("b.ply", "plain text\n"), "does not begin");
   expect_refused(folder.write("b.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"),
-                 "does not end");
+                 "has no end_header");
 }
 
 TEST(ReadGltf, NodeTransformsAreApplied) {
@@ -254,7 +254,7 @@ TEST(ReadGltf, BrokenFilesAreRefused) {
   refused({{"nodes", R"([{"children":[7]}])"}}, "node 7: does not exist");
   refused({{"count", "4000000000"}}, "positions lie outside");
   refused({{"indexCount", "4000000000"}}, "indices lie outside");
-  refused({{"indexCount", "11"}}, "not whole triangles");
+  refused({{"indexCount", "11"}}, "not a multiple of 3");
   refused({{"offset", "100"}}, "positions lie outside");
   refused({{"offset", "18446744073709551615"}}, "");
   refused({{"viewLength", "100000"}}, "positions lie outside");

@@ -180,7 +180,7 @@ TEST(ReadObj, BadLinesAreNamedByNumber) {
       {"v 1 0 0", "v 1 0", "line 2: a vertex needs three"},
       {"f 1 3 2", "f 1 3", "line 5: a face has fewer than three"},
       {"f 1 3 2", "f 1 3 0", "line 5: a face uses vertex \"0\""},
-      {"f 1 3 2", "f 1 3 77", "line 5: a face uses vertex \"77\", but there are 4"},
+      {"f 1 3 2", "f 1 3 77", "line 5: a face uses vertex \"77\", but only 4 exist"},
       {"f 1 3 2", "f 1 3 -5", "line 5: a face uses vertex \"-5\""},
       {"f 1 3 2", "f 1 3 99999999999999999999", "line 5: a face uses vertex"},
       {"f 1 3 2", "f 1 3 2x", "line 5: a face uses vertex \"2x\""},
