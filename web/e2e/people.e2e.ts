@@ -207,7 +207,7 @@ test('the first admin adds users; a viewer can stop the rig and change nothing e
   expect(maker.page.url()).not.toContain(address.split('#')[1]!);
   const again = await visit(browser, address);
   await again.page.getByRole('heading', { name: 'Sign in' }).waitFor();
-  await again.page.getByText('A link works once').waitFor();
+  await again.page.getByText('A sign-in link works once').waitFor();
 
   const viewer = await visit(browser, daemon.address, 390);
   await signIn(viewer.page, 'vera');

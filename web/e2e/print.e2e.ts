@@ -230,7 +230,7 @@ test('unusable files are refused, each with a reason and a remedy', async () => 
       made('<img src=x onerror=alert(1)>.obj', 'v 0 0 0\nf 1 2 3\n'),
     ]);
   await problems.getByText('part.step').waitFor();
-  await problems.getByText('Export it as STL, PLY or OBJ').waitFor();
+  await problems.getByText('Export the model as STL, PLY or OBJ').waitFor();
   expect(await page.locator('.problems img').count()).toBe(0);
   await page.locator('input[type=file]').setInputFiles([made('short.obj', 'v 0 0 0\nf 1 2 3\n')]);
   await problems.getByText(/line 2/).waitFor();

@@ -35,7 +35,7 @@ test('the link signs the first admin in, and works only once', async () => {
   await open(admin, '/people');
   await page.getByRole('heading', { name: 'Add a user' }).waitFor();
   const again = await visit(browser, link);
-  await again.page.getByText('A link works once').waitFor();
+  await again.page.getByText('A sign-in link works once').waitFor();
   expect(again.complaints).toEqual([]);
 });
 

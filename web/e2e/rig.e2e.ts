@@ -241,7 +241,7 @@ test('a dip is guided step by step with one large button', async () => {
   await picture(person, 'rig-dip-soak');
   await press(page, 'The activator is sprayed');
   await page.getByText(/The film can be used for/).waitFor();
-  await press(page, 'Hands are clear, dip now');
+  await press(page, 'Hands are clear: dip now');
   await page.locator('.big', { hasText: 'Dipping' }).waitFor();
   await picture(person, 'rig-dipping');
   await page.getByText('The dip has ended').waitFor({ timeout: 60_000 });

@@ -100,7 +100,7 @@ function Account() {
         type="button"
         class="plain"
         onClick={nextTheme}
-        aria-label={`Theme: ${theme.value}. Change`}
+        aria-label={`Theme: ${theme.value}. Change the theme`}
         title={`Theme: ${theme.value}`}
       >
         <Icon name={theme.value} />
@@ -118,7 +118,7 @@ function StopButton() {
       type="button"
       class={`stop ${isMoving.value ? 'moving' : ''}`}
       onClick={() => void stop()}
-      title="Stops the rig. While it moves, Escape does the same."
+      title="Stops the rig. While the rig moves, the Escape key also stops it."
     >
       {kStopText[stopState.value]}
     </button>
@@ -139,8 +139,8 @@ function ConnectionBanner() {
   if (!who.value || link.value !== 'lost') return null;
   return (
     <p class="banner" role="status">
-      The connection to the daemon is lost; trying again. This page may be out of date. The Stop
-      button may still work; if it fails, press the stop button on the rig.
+      The connection to the daemon is lost. This page tries to reconnect and may be out of date. The
+      Stop button may still work; if it fails, press the stop button on the rig.
     </p>
   );
 }

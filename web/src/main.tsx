@@ -15,7 +15,8 @@ async function start(): Promise<void> {
   mustSignIn.value = true;
   complain({
     ...answer.failure,
-    remedy: 'A link works once, for 15 minutes. Ask for a new one, or sign in with your password',
+    remedy:
+      'A sign-in link works once, for 15 minutes. Ask for a new link, or sign in with your password',
   });
 }
 

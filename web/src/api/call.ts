@@ -96,9 +96,11 @@ async function send(method: Method, path: string, options: Options): Promise<Res
 }
 
 const lost = () =>
-  refused('the daemon does not answer', 'Check the network. The page tries again automatically', {
-    status: 0,
-  });
+  refused(
+    'the daemon does not answer',
+    'Check the network, then try again. The page reconnects automatically',
+    { status: 0 },
+  );
 
 function readClock(response: Response): void {
   const date = Date.parse(response.headers.get('Date') ?? '');
@@ -132,8 +134,7 @@ async function failureOf(response: Response): Promise<Failure> {
 
 // Most messages of the daemon contain the remedy. For these statuses, the page adds it.
 function remedyOf(status: number): { remedy?: string } {
-  if (status === 401) return { remedy: 'Sign in' };
-  if (status === 503)
-    return { remedy: 'The daemon is starting or stopping. Try again in a moment' };
+  if (status === 401) return { remedy: 'Reload the page, then sign in' };
+  if (status === 503) return { remedy: 'If the error remains, ask an admin to check the daemon' };
   return {};
 }

@@ -26,7 +26,11 @@ export async function upload(
   signal: AbortSignal,
 ): Promise<Result<string>> {
   const bytes = await file.arrayBuffer().catch(() => undefined);
-  if (!bytes) return refused('the file was moved or changed and cannot be read', 'Choose it again');
+  if (!bytes)
+    return refused(
+      'the file cannot be read; it may have been moved or changed',
+      'Choose the file again',
+    );
   const hash = await sha256(bytes);
   const resumable = new ResumableUpload(hash);
   let share = 0;

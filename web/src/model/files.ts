@@ -29,17 +29,18 @@ const kRoles: Record<string, Role> = {
   toml: 'profile',
 }; // prettier-ignore
 
-const kCad = 'this is a CAD file without a surface mesh. Export it as STL, PLY or OBJ';
+const kCad = 'this is a CAD file without a surface mesh. Export the model as STL, PLY or OBJ';
 const kRefusals: Record<string, string> = {
   bin: 'this is a part of a glTF model. Export the model as GLB, which is a single file',
-  zip: 'this is an archive. Unpack it and drop the files in it',
-  rar: 'this is an archive. Unpack it and drop the files in it',
+  zip: 'this is an archive. Unpack it, then drop the extracted files here',
+  rar: 'this is an archive. Unpack it, then drop the extracted files here',
   step: kCad,
   stp: kCad,
   f3d: kCad,
   blend: 'Blender files cannot be read. Export the model as OBJ from Blender',
   '3mf': '3MF cannot be read. Export the model as OBJ, PLY or STL',
-  gcode: 'this is a tool path, not a model. Drop the OBJ, PLY or STL from which it was made',
+  gcode:
+    'this is a tool path, not a model. Drop the OBJ, PLY or STL file from which the tool path was made',
   webp: 'WebP cannot be read. Save the image as PNG or JPEG',
   heic: 'HEIC cannot be read. Save the image as PNG or JPEG',
   gif: 'GIF cannot be read. Save the image as PNG or JPEG',

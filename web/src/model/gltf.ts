@@ -50,7 +50,10 @@ class GltfReader {
     const node = this.file.json.nodes?.[index];
     this.nodes += 1;
     if (!node) throw damaged(`node ${index} does not exist`);
-    if (depth > kDeepest || this.nodes > kMostNodes) throw damaged(`node ${index} contains itself`);
+    if (depth > kDeepest || this.nodes > kMostNodes)
+      throw damaged(
+        `node ${index} contains itself, is nested more than ${kDeepest} levels deep, or is one of more than ${kMostNodes} nodes`,
+      );
     const own = times(parent, node.matrix?.length === 16 ? node.matrix : placed(node));
     if (node.mesh !== undefined) {
       const mesh = this.file.json.meshes?.[node.mesh];
@@ -77,7 +80,7 @@ class GltfReader {
     const mode = primitive.mode ?? 4;
     if (mode < 4) return; // points and lines
     const { values, width } = this.numbers(primitive, 'POSITION', 'positions');
-    if (width !== 3) throw damaged('its positions do not have three coordinates');
+    if (width !== 3) throw damaged('the vertex positions do not have three coordinates');
     const first = this.positions.length / 3;
     const count = values.length / 3;
     const order =
@@ -85,7 +88,9 @@ class GltfReader {
         ? Float64Array.from({ length: count }, (_, i) => i)
         : this.file.numbers(primitive.indices, 'indices').values;
     if (this.indices.length + 3 * order.length > kMostCorners)
-      throw damaged('the model has too many faces for this browser');
+      throw damaged(
+        'the model has too many faces for this browser. Reduce their number in a 3D editor',
+      );
     for (let i = 0; i < values.length; i += 3)
       this.positions.push(...moved(transform, values[i]!, values[i + 1]!, values[i + 2]!));
     this.addLook(primitive, count);
@@ -141,7 +146,8 @@ class GltfReader {
 }
 
 function* triangles(order: Float64Array, mode: number): Generator<[number, number, number]> {
-  if (mode === 4 && order.length % 3 !== 0) throw damaged('its last triangle is incomplete');
+  if (mode === 4 && order.length % 3 !== 0)
+    throw damaged('the last triangle of a mesh is incomplete');
   for (let i = 0; i + 2 < order.length; i += mode === 4 ? 3 : 1) {
     const [a, b, c] = [order[i]!, order[i + 1]!, order[i + 2]!];
     if (mode === 6) yield [order[0]!, b, c];

@@ -76,7 +76,7 @@ export class GltfFile {
     if (strange)
       throw new Refusal(
         `the glTF extension ${strange} is not supported`,
-        'Export without compression',
+        'Export the model without this extension (usually: without compression)',
       );
     this.buffers = (this.json.buffers ?? []).map((buffer, i) =>
       buffer.uri === undefined && i === 0 && chunk ? chunk : embedded(buffer.uri),
@@ -89,16 +89,20 @@ export class GltfFile {
     const view = this.view(accessor?.bufferView, name);
     const component = kComponents[accessor?.componentType ?? 0];
     const width = kWidths[accessor?.type ?? ''];
-    if (!accessor || !component || !width) throw damaged(`its ${name} have an unknown type`);
+    if (!accessor || !component || !width)
+      throw damaged(`the model's ${name} have an unknown type`);
     if (accessor.sparse)
-      throw new Refusal(`its ${name} use sparse storage`, 'Export without compression');
+      throw new Refusal(
+        `the model's ${name} use sparse accessors, which are not supported`,
+        'Export the model without sparse accessors, or as OBJ',
+      );
     const [size, read, one] = component;
     const stride = view.stride ?? size * width;
     const first = accessor.byteOffset ?? 0;
     const count = accessor.count;
     const end = first + stride * (count - 1) + size * width;
     if (!(count >= 0 && first >= 0 && stride > 0) || (count > 0 && !(end <= view.bytes.byteLength)))
-      throw damaged(`its ${name} lie outside the file`);
+      throw damaged(`the model's ${name} lie outside the file`);
     const data = new DataView(view.bytes.buffer, view.bytes.byteOffset, view.bytes.byteLength);
     const values = new Float64Array(count * width);
     for (let i = 0; i < count; i += 1)
@@ -129,7 +133,7 @@ export class GltfFile {
       !buffer ||
       !(first >= 0 && view.byteLength >= 0 && first + view.byteLength <= buffer.length)
     )
-      throw damaged(`its ${name} lie outside the file`);
+      throw damaged(`the model's ${name} are missing or lie outside the file`);
     const bytes = buffer.subarray(first, first + view.byteLength);
     return view.byteStride === undefined ? { bytes } : { bytes, stride: view.byteStride };
   }
@@ -143,7 +147,7 @@ function split(bytes: ArrayBuffer): { text: string; chunk?: Uint8Array } {
     return { text: decode(new Uint8Array(bytes)) };
   const length = view.getUint32(12, true);
   if (view.getUint32(16, true) !== kJson || length > bytes.byteLength - 20)
-    throw damaged('the file is incomplete');
+    throw damaged('the file is incomplete or not valid GLB');
   const text = decode(new Uint8Array(bytes, 20, length));
   const next = 20 + length;
   if (next + 8 > bytes.byteLength) return { text };
@@ -155,11 +159,14 @@ function split(bytes: ArrayBuffer): { text: string; chunk?: Uint8Array } {
 function embedded(uri: string | undefined): Uint8Array {
   const data = /^data:[^,]*;base64,(.*)$/s.exec(uri ?? '');
   if (!data)
-    throw new Refusal('its data are in another file', 'Export it as GLB, which is a single file');
+    throw new Refusal(
+      "the model's data are in another file",
+      'Export the model as GLB, which is a single file',
+    );
   try {
     return Uint8Array.from(atob(data[1]!), (letter) => letter.charCodeAt(0));
   } catch {
-    throw damaged('its embedded data are not valid base64');
+    throw damaged('the embedded data are not valid base64');
   }
 }
 

@@ -36,7 +36,10 @@ export interface Box {
 /** Returns the bounding box. Throws a Refusal if there are no triangles or if a vertex is missing or not finite. */
 export function boxOf(mesh: Mesh): Box {
   if (mesh.indices.length === 0)
-    throw new Refusal('the model has no faces', 'Export the model as a mesh, not points or curves');
+    throw new Refusal(
+      'the model has no faces',
+      'Export the model as a mesh, not as points or curves',
+    );
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
   for (const index of mesh.indices) {
@@ -44,7 +47,7 @@ export function boxOf(mesh: Mesh): Box {
       const value = mesh.positions[3 * index + axis];
       if (value === undefined || !Number.isFinite(value))
         throw new Refusal(
-          'a face refers to a vertex that does not exist',
+          'a face refers to a vertex that does not exist or is not finite',
           'Export the model again',
         );
       if (value < min[axis]!) min[axis] = value;

@@ -99,7 +99,7 @@ class ObjReader {
     const at = n > 0 ? n - 1 : count + n;
     if (!Number.isInteger(at) || at < 0 || at >= count)
       throw new Refusal(
-        `line ${line}: a face refers to vertex ${word}, which does not exist`,
+        `line ${line}: a face refers to vertex or texture coordinate ${word}, which does not exist`,
         'Export the model again',
       );
     return at;

@@ -42,7 +42,7 @@ export function readPly(bytes: ArrayBuffer): Map<string, PlyElement> {
     // The header is untrusted. Each row takes at least a byte, so a larger count cannot be right.
     if (count > bytes.byteLength)
       throw new Refusal(
-        `its header claims ${count} of "${name}", more than the file can hold`,
+        `the header announces ${count} elements "${name}", but the file is too short for them`,
         kAgain,
       );
     elements.set(name, readElement(source, count, properties));
@@ -55,7 +55,7 @@ function readHeader(bytes: ArrayBuffer): Header {
     new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)),
   );
   const end = /^ply\r?\n[\s\S]*?\nend_header\r?\n/.exec(text);
-  if (!end) throw new Refusal('the file is not a PLY file: it has no header', kAgain);
+  if (!end) throw new Refusal('the file has no valid PLY header', kAgain);
   const header: Header = { format: '', elements: [], size: end[0].length };
   for (const line of end[0].split(/\r?\n/)) {
     const words = line.trim().split(/\s+/);
@@ -65,9 +65,12 @@ function readHeader(bytes: ArrayBuffer): Header {
     if (words[0] === 'property') header.elements.at(-1)?.properties.push(propertyOf(words));
   }
   if (!['ascii', 'binary_little_endian', 'binary_big_endian'].includes(header.format))
-    throw new Refusal(`its format "${header.format}" is unknown`, kAgain);
+    throw new Refusal(`the PLY format "${header.format}" is unknown`, kAgain);
   if (header.elements.some(({ count }) => !Number.isInteger(count) || count < 0))
-    throw new Refusal('a count in its header is not a whole number', kAgain);
+    throw new Refusal(
+      'an element count in the PLY header is negative or not a whole number',
+      kAgain,
+    );
   return header;
 }
 
@@ -76,7 +79,10 @@ function propertyOf(words: string[]): Property {
   const kind = kKinds[words[isList ? 3 : 1] ?? ''];
   const length = isList ? kKinds[words[2] ?? ''] : undefined;
   if (!kind || (isList && !length))
-    throw new Refusal(`its header has an unknown property "${words.join(' ')}"`, kAgain);
+    throw new Refusal(
+      `the PLY header has a property of unknown type, "${words.join(' ')}"`,
+      kAgain,
+    );
   return { name: words.at(-1) ?? '', kind, ...(length ? { length } : {}) };
 }
 
@@ -181,7 +187,7 @@ export function readPlyMesh(bytes: ArrayBuffer): Mesh {
   const vertex = elements.get('vertex');
   const positions = vertex && columnsOf(vertex, ['x', 'y', 'z']);
   if (!vertex || !positions)
-    throw new Refusal('the file has no vertices', 'Export the model as a mesh');
+    throw new Refusal('the file has no vertices with x, y and z', 'Export the model as a mesh');
   const uvs =
     columnsOf(vertex, ['u', 'v']) ??
     columnsOf(vertex, ['s', 't']) ??

@@ -41,7 +41,10 @@ export function attempt<T>(work: () => T): Result<T> {
   } catch (error) {
     if (error instanceof Refusal) return refused(error.what, error.remedy);
     if (error instanceof RangeError)
-      return refused('the file is damaged or too large for this browser', 'Export it again');
+      return refused(
+        'the file is damaged or too large for this browser',
+        'Export the model again, with fewer faces if it is very large',
+      );
     throw error;
   }
 }

@@ -14,8 +14,8 @@ function isBinary(bytes: ArrayBuffer): boolean {
   const head = new TextDecoder().decode(new Uint8Array(bytes, 0, 5));
   if (head.toLowerCase() === 'solid') return false;
   throw new Refusal(
-    `the header says ${count} triangles, but the file has ${bytes.byteLength} bytes`,
-    'It is incomplete or damaged. Copy or export it again',
+    `the header announces ${count} triangles, which does not match the file size of ${bytes.byteLength} bytes`,
+    'Copy or export the file again',
   );
 }
 
@@ -35,11 +35,17 @@ function readText(text: string): Mesh {
   for (let m = vertex.exec(text); m; m = vertex.exec(text)) {
     const corner = [Number(m[1]), Number(m[2]), Number(m[3])];
     if (corner.some((n) => !Number.isFinite(n)))
-      throw new Refusal(`vertex ${numbers.length / 3 + 1} is not valid`, 'Export the model again');
+      throw new Refusal(
+        `vertex ${numbers.length / 3 + 1} has a coordinate that is not a number`,
+        'Export the model again',
+      );
     numbers.push(...corner);
   }
   if (numbers.length === 0 || numbers.length % 9 !== 0)
-    throw new Refusal('the STL file is incomplete', 'Copy or export the file again');
+    throw new Refusal(
+      'the STL file is incomplete or has no triangles',
+      'Copy or export the file again',
+    );
   return meshOf(Float32Array.from(numbers));
 }
 

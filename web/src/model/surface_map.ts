@@ -25,7 +25,10 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
   const contact_s = vertex && columnsOf(vertex, ['contact_time']);
   const stretch = vertex && columnsOf(vertex, ['stretch']);
   if (!positions || !film_mm || !contact_s || !stretch)
-    throw new Refusal('the file is not a surface map: film_x, contact_time or stretch is missing');
+    throw new Refusal(
+      'the file is not a surface map: x, y, z, film_x, film_y, contact_time or stretch is missing',
+      'Run the simulation again',
+    );
   const indices = trianglesOf(elements);
   const box = boxOf({ positions, indices, parts: [], libraries: [] });
   let contactMax_s = 0;

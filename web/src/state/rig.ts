@@ -59,7 +59,7 @@ export async function stop(): Promise<void> {
   }
   stopState.value = 'failed';
   complain({
-    what: 'The stop request did not reach the daemon',
+    what: 'The stop request failed',
     remedy: 'Press the stop button on the rig itself',
   });
 }

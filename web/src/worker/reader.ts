@@ -42,7 +42,7 @@ function ask(question: Question): Promise<Answer | undefined> {
 
 const kTooMuch = refused(
   'this browser could not read the file',
-  'It may be too large. Try a desktop computer, or a model with fewer faces',
+  'The file may be too large. Try a desktop computer, or a model with fewer faces',
 );
 
 /** Reads an OBJ, PLY, STL or glTF file, chosen by its extension. */

@@ -79,7 +79,7 @@ const Markers = ({ markers }: { markers: NonNullable<Calibration['markers']> }) 
     <thead>
       <tr>
         <th scope="col">Marker</th>
-        <th scope="col">Fit (rms)</th>
+        <th scope="col">Fit error (rms)</th>
         <th scope="col">Residual</th>
       </tr>
     </thead>

@@ -47,7 +47,7 @@ export function FilmViewer({ film, straight, computeStraight }: Props) {
         ref={canvas}
         tabIndex={0}
         role="img"
-        aria-label="The film image. Plus and minus zoom, arrow keys move, 1 shows actual pixels, 0 shows everything."
+        aria-label="The film image. The plus and minus keys zoom, the arrow keys move the image, 1 shows actual pixels, 0 shows the whole image."
         {...hands}
         onPointerMove={(event) => {
           hands.onPointerMove(event);

@@ -25,7 +25,8 @@ export function JobScreen({ name }: { name: string }) {
       <>
         <h1>Job {numberOf(name)}</h1>
         <p class="quiet">
-          Loading… If this job does not exist, see <a href="#/jobs">the list of jobs</a>.
+          Loading… If nothing appears, the job may not exist; see{' '}
+          <a href="#/jobs">the list of jobs</a>.
         </p>
       </>
     );

@@ -62,7 +62,7 @@ export class Results {
         () => undefined,
       );
       if (!picture)
-        return refused('the film image is too large for this browser', 'Download it instead');
+        return refused('this browser cannot show the film image', 'Download film.png under Files');
       const dpi = this.report.value?.parameters?.dpi ?? 300;
       this.film.value = { picture, pitch_mm: 25.4 / dpi };
       return done(undefined);

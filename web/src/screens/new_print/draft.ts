@@ -114,7 +114,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
   if (!spec)
     return refused(
       `${name} is not a simulation`,
-      'Open a simulation and run it again from its page',
+      'Open a simulation and press “Run again with changes”',
     );
   batch(() => {
     shape.value = undefined;

@@ -75,10 +75,11 @@ const Instructions = () => (
     <ol>
       <li>Drop a model and turn it to the pose in which it will be dipped.</li>
       <li>
-        Simulate the dip. The film image is distorted so that it fits once the film has stretched.
+        Simulate the dip. The film image is distorted so that it matches the object once the film
+        has stretched.
       </li>
       <li>Print the image on film and dip the object. The Rig page guides you step by step.</li>
     </ol>
-    <p class="quiet">Nothing is printed and nothing moves until you confirm it.</p>
+    <p class="quiet">Nothing is printed and nothing moves until you confirm.</p>
   </section>
 );

@@ -95,7 +95,7 @@ async function readAll(
       ...bad,
       ...(read ? arrangement.value.missing : []).map((name) => ({
         name,
-        why: 'it is referenced but missing. Drop it too, or drop an image to use instead',
+        why: 'the model needs this file, but it was not dropped. Drop it too, or drop an image as the texture of the whole object',
       })),
     ];
     if (read?.ok) shape.value = read.value;

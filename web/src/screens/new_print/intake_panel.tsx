@@ -98,7 +98,7 @@ export function Taken() {
   return (
     <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
-      {from && files.length === 0 && <p>Same as in {from.job.replace('jobs/', 'job ')}</p>}
+      {from && files.length === 0 && <p>Same object as in {from.job.replace('jobs/', 'job ')}</p>}
       {files.length > 0 && (
         <ul class="files">
           {files.map((file) => (
@@ -143,8 +143,8 @@ export function Taken() {
       )}
       {shape.value && scale !== unit_mm && files.length > 0 && !calibrated.value && (
         <p class="quiet">
-          Without scaling, the model would be {formatMm((longest_mm.value / scale) * unit_mm)} long.
-          Check its size.
+          Without scaling, the longest side would be{' '}
+          {formatMm((longest_mm.value / scale) * unit_mm)}. Check the size of the object.
         </p>
       )}
     </section>

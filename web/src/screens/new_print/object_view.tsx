@@ -75,7 +75,7 @@ export function ObjectView() {
         class="stage"
         ref={host}
         role="img"
-        aria-label="3D view of the object above the film. The fields beside it turn and move the object."
+        aria-label="3D view of the object above the film. The fields beside this view turn and move the object."
       />
       {trouble && <p class="trouble">{trouble}</p>}
       <div class="tools">

@@ -44,7 +44,7 @@ function Measured() {
       <p>
         Pose, film and scale come from the calibration
         {calibration.errorP95Mm !== undefined &&
-          `. For 95 % of the surface, its error is at most ${formatMm(calibration.errorP95Mm, 2)}`}
+          `. For 95 % of the surface, the error of this pose is at most ${formatMm(calibration.errorP95Mm, 2)}`}
         .
       </p>
       {why && (
@@ -105,7 +105,7 @@ function ByHand() {
           onValue={(mm) => move(0, mm)}
         />
         <NumberField
-          label="Offset to the top"
+          label="Offset towards the top"
           unit="mm"
           value={pose.centre_mm[1]}
           min={-1000}

@@ -68,7 +68,7 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   }
   const spec = brought.mesh ? undefined : from?.spec;
   const mesh = brought.mesh ?? (spec?.mesh as Inputs['mesh'] | undefined);
-  if (!mesh) return refused('no model', 'Drop a model, or choose a sample');
+  if (!mesh) return refused('the model is missing', 'Drop a model, or choose a sample');
   const texture = brought.texture ?? (spec?.texture as Inputs['texture']);
   const profile = brought.profile ?? (spec?.profile as Inputs['profile']);
   const kept = (spec?.extraFiles ?? []) as Inputs['extraFiles'];

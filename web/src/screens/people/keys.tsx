@@ -13,7 +13,7 @@ const kDay_s = 86_400;
 const kTimes = [
   { value: String(30 * kDay_s), label: '30 days' },
   { value: String(365 * kDay_s), label: '1 year' },
-  { value: '', label: 'no expiry' },
+  { value: '', label: 'unlimited time' },
 ];
 
 /** API keys, which let scripts act with their owner's permissions. */

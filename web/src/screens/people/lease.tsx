@@ -30,7 +30,7 @@ export function Lease() {
           />
           <ConfirmButton
             kind="danger"
-            sure={`Take the lease from ${lease.holder}`}
+            sure={`Confirm: break the lease of ${lease.holder}`}
             onPress={() => breakLease(reason.trim() || 'no reason given')}
           >
             Break the lease

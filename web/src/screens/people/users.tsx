@@ -28,7 +28,7 @@ export function Users() {
       <h2 id="users-title">Users</h2>
       {link && (
         <Once
-          title={`Sign-in link for ${link.user}; works once, for 15 minutes:`}
+          title={`Sign-in link for ${link.user} (works once, for 15 minutes):`}
           secret={link.address}
         />
       )}
@@ -120,7 +120,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
           label={
             isFirst
               ? 'Password (at least 10 characters)'
-              : 'Password (or leave empty and create a link)'
+              : 'Password (or leave empty, then create a sign-in link)'
           }
           type="password"
           autocomplete="new-password"

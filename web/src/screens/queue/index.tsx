@@ -79,7 +79,7 @@ export function QueueScreen() {
       {names === undefined && <p class="quiet">Loading…</p>}
       {names && rows.length === 0 && (
         <p class="quiet">
-          No jobs yet. <a href="#/">Start a new print</a>.
+          No jobs to show. <a href="#/">Start a new print</a>.
         </p>
       )}
       {rows.length > 0 && <Table rows={rows} />}
@@ -97,7 +97,7 @@ function Line() {
   return (
     <div class={`line ${line.paused ? 'paused' : ''}`}>
       <p>
-        {running} of {line.workerSlots} workers busy, {line.queuedCount} waiting.
+        {running} of {line.workerSlots} workers are busy; jobs waiting: {line.queuedCount}.
         {line.paused && (
           <strong>
             {' '}

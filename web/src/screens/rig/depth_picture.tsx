@@ -24,7 +24,7 @@ export function DepthPicture() {
       {why && (
         <p class="warning" role="status">
           {seen.value ? `No picture since ${clockOf(seen.value.time)}` : 'No picture'}: {why.what}.
-          Trying again while this page is open.
+          The page tries again while it is open.
         </p>
       )}
     </section>

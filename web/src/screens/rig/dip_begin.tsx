@@ -46,9 +46,10 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
     <section class="dip" aria-labelledby="begin-title">
       <h2 id="begin-title">Dip</h2>
       <p>
-        The film image of <a href={jobPath(simulateJob)}>{simulated?.displayName || simulateJob}</a>{' '}
-        ({numberOf(simulateJob)}), step by step: print the film, mount the object, lay the film,
-        spray the activator, dip.
+        Dips with the film image of{' '}
+        <a href={jobPath(simulateJob)}>{simulated?.displayName || simulateJob}</a> (
+        {numberOf(simulateJob)}), step by step: print the film, mount the object, lay the film on
+        the water, spray the activator, dip.
       </p>
       <details>
         <summary>Dip settings</summary>

@@ -25,7 +25,7 @@ const kSteps: { step: string; title: string; confirm?: string }[] = [
   { step: 'SOAK', title: 'Soak' },
   { step: 'SPRAY_ACTIVATOR', title: 'Spray the activator', confirm: 'The activator is sprayed' },
   { step: 'ACTIVATE', title: 'Wait for the activator' },
-  { step: 'START_DIP', title: 'Start the dip', confirm: 'Hands are clear, dip now' },
+  { step: 'START_DIP', title: 'Start the dip', confirm: 'Hands are clear: dip now' },
   { step: 'DESCEND', title: 'Lower the object' },
   { step: 'HOLD', title: 'Hold' },
   { step: 'RETRACT', title: 'Raise the object again' },
@@ -59,7 +59,7 @@ export function DipGuide({ name }: { name: string }) {
         <p class={film > 0 ? '' : 'warning'} role="timer">
           {film > 0
             ? `The film can be used for ${formatSeconds(Math.ceil(film))}`
-            : `The film has been too old for ${formatSeconds(-Math.floor(film))}; the print may be poor`}
+            : `The film became too old ${formatSeconds(-Math.floor(film))} ago; the print may be poor`}
         </p>
       )}
       {(status.warnings ?? []).map((warning) => (

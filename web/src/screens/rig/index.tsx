@@ -114,7 +114,7 @@ function LeasePanel({ now }: { now: Rig }) {
     return (
       <section>
         <h2>Control</h2>
-        <p>{lease ? `${lease.holder}: ${lease.purpose}` : 'Nobody.'}</p>
+        <p>{lease ? `${lease.holder}: ${lease.purpose}` : 'Nobody controls the rig.'}</p>
         <p class="quiet">
           You can view the rig and stop it. Other commands need the role Operator.
         </p>
@@ -160,7 +160,7 @@ function LeasePanel({ now }: { now: Rig }) {
           )}
           {may('ADMIN') && (
             <details>
-              <summary>Take control from {lease.holder}</summary>
+              <summary>Break the lease of {lease.holder}</summary>
               <TextField
                 label="Reason (for the audit log)"
                 value={reason}
@@ -168,7 +168,7 @@ function LeasePanel({ now }: { now: Rig }) {
                 maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
               />
               <ConfirmButton
-                sure={`Take control from ${lease.holder}`}
+                sure={`Confirm: break the lease of ${lease.holder}`}
                 kind="danger"
                 onPress={() => breakLease(reason.trim() || 'no reason given')}
               >

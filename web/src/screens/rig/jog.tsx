@@ -81,7 +81,7 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   return (
     <div class="jog">
       <p class="quiet">
-        The axis moves while you hold a button, or Space when a button is focused.
+        To move the axis, hold a button, or hold Space while a button has the focus.
       </p>
       <div class="row">
         {button(-1, 'Up')}
