@@ -310,7 +310,7 @@ TEST_F(Cli, WithoutACommandItPrintsTheHelp) {
   EXPECT_EQ(help.out, bare.err);
   EXPECT_EQ(hydroprint::testing::run({kClient, "help", "rig", "move"}).out,
             hydroprint::testing::run({kClient, "rig", "move", "--help"}).out);
-  expect_error({"help", "nothing"}, 3, "no command 'nothing'");
+  expect_error({"help", "nothing"}, 3, "unknown command 'nothing'");
 }
 
 TEST_F(Cli, CommandsWithoutAVerbShowTheirState) {

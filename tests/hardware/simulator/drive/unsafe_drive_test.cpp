@@ -82,7 +82,7 @@ TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndDisconnected) {
   const auto found = drive.connect();
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().reason, "DRIVE_CONFIG_UNSAFE");
-  EXPECT_NE(found.error().message.find("holds 0x4851, not 0x4850"), std::string::npos)
+  EXPECT_NE(found.error().message.find("holds 0x4851; 0x4850 is expected"), std::string::npos)
       << found.error().message;
   EXPECT_FALSE(drive.connected());
   EXPECT_FALSE(drive.poll());

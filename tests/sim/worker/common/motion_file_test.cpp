@@ -33,15 +33,15 @@ TEST(MotionFile, InvalidMotionsAreRefusedByLine) {
       {"t,x,y,z\n0,0,0,0\n1,0,0,-1\n", "line 1: wrong header"},
       {header, "fewer than two rows"},
       {header + "0,0,0,0\n", "fewer than two rows"},
-      {header + "0,0,0,0\n1,0,0\n", "line 3: not 4 finite numbers"},
-      {header + "0,0,0,0\n1,0,0,-1,0\n", "line 3: not 4 finite numbers"},
-      {header + "0,0,0,0\n1,0,nan,-1\n", "line 3: not 4 finite numbers"},
-      {header + "0,0,0,0\n1,0,inf,-1\n", "line 3: not 4 finite numbers"},
-      {header + "0,0,0,0\n1,0,1e999,-1\n", "line 3: not 4 finite numbers"},
-      {header + "0,0,0,0\n\n1,0,0,-1\n", "line 3: not 4 finite numbers"},
+      {header + "0,0,0,0\n1,0,0\n", "line 3: expected 4 finite numbers"},
+      {header + "0,0,0,0\n1,0,0,-1,0\n", "line 3: expected 4 finite numbers"},
+      {header + "0,0,0,0\n1,0,nan,-1\n", "line 3: expected 4 finite numbers"},
+      {header + "0,0,0,0\n1,0,inf,-1\n", "line 3: expected 4 finite numbers"},
+      {header + "0,0,0,0\n1,0,1e999,-1\n", "line 3: expected 4 finite numbers"},
+      {header + "0,0,0,0\n\n1,0,0,-1\n", "line 3: expected 4 finite numbers"},
       {header + "0,0,0,0\n1,0,0,-1\n1,0,0,-2\n", "line 4: t_s does not increase"},
       {header + "0,0,0,0\n1,0,0,-1\n2,0,0,-0.5\n", "line 4: z_mm rises"},
-      {header + "0,0,0,0\n1,0,2e4,-1\n", "line 3: farther than"},
+      {header + "0,0,0,0\n1,0,2e4,-1\n", "line 3: more than 10 m from the start"},
   };
   for (const auto& [csv, text] : cases) {
     const auto read = motion(csv);
