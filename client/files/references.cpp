@@ -63,8 +63,8 @@ class Collector {
   }
 
   /// Returns the file that `name` refers to in the file `from`, relative to the model's folder.
-  /// Backslashes count as slashes. If there is no such file, tries only the last part of the name.
-  /// Never returns a file outside the model's folder.
+  /// Backslashes count as slashes. If the file does not exist, tries only the last part of the
+  /// name. Never returns a file outside the model's folder.
   [[nodiscard]] std::optional<std::string> resolve(std::string_view name,
                                                    const std::string& from) const {
     const std::filesystem::path base = std::filesystem::path(from).parent_path();

@@ -24,7 +24,7 @@ struct State {
 /// Opens the store of a state folder without migrating it, because a daemon of another version may
 /// be using it.
 /// @param root  empty: the folder of this user's daemon
-/// @return kNotFound if there is no such folder; kPermissionDenied if it belongs to another user;
+/// @return kNotFound if the folder does not exist; kPermissionDenied if it belongs to another user;
 ///         kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
 [[nodiscard]] Result<State> open_state(const std::filesystem::path& root);
 

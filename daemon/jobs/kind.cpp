@@ -26,7 +26,7 @@ std::string with_dashes(std::string name) {
 }
 
 /// Returns the name of the earlier job that a spec refers to in a single (not repeated) field;
-/// empty if there is none.
+/// empty if the spec refers to no job.
 std::string earlier_job_name(const Message& spec) {
   std::vector<const FieldDescriptor*> fields;
   spec.GetReflection()->ListFields(spec, &fields);

@@ -121,7 +121,7 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
 }
 
 /// If all slots are in use, frees the least recently used slot without a waiting call. Returns
-/// false if there is no such slot.
+/// false if every slot has one.
 bool PreviewPool::make_room() {
   if (slots_.size() < kMaxSlots) return true;
   auto oldest = slots_.end();

@@ -60,8 +60,8 @@ std::vector<std::string> flags_of(const CLI::App* app) {
   return names;
 }
 
-// Describes the first word that was not understood, and suggests a similar command or flag. Empty
-// if there is no such word, or if it cannot be a command because there are no subcommands.
+// Describes the first word that was not understood, and suggests a similar command or flag. Returns
+// an empty text if all words were understood, or if the word is no flag and `app` has no commands.
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   const bool is_flag = words.front().starts_with("-");

@@ -12,7 +12,7 @@ namespace hydroprint::http {
 
 /// How the end of a request's body is determined (RFC 9112, 6.1 and 6.3).
 enum class BodyFraming {
-  kLength,         ///< Content-Length; without it, there is no body
+  kLength,         ///< Content-Length; a request without it has no body
   kChunked,        ///< Transfer-Encoding: chunked
   kUnknownCoding,  ///< chunked, applied after an unsupported coding such as gzip
   kFaulty,         ///< any other Transfer-Encoding: the end of the body is unknown

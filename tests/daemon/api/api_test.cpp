@@ -185,13 +185,17 @@ TEST_F(Api, ValidateOnlyStoresNothing) {
   expect_refused(client.create(request, none), StatusCode::FAILED_PRECONDITION, "ASSET_MISSING");
 }
 
-// Returns the fields that a refusal names, in order.
-std::vector<std::string> refused_fields(const grpc::Status& status) {
+// Returns the list of wrong fields in a refusal; an empty one if the refusal has no such list.
+google::rpc::BadRequest bad_request(const grpc::Status& status) {
   google::rpc::Status details;
   google::rpc::BadRequest bad;
-  if (!details.ParseFromString(status.error_details()) || details.details_size() != 2 ||
-      !details.details(1).UnpackTo(&bad))
-    return {};
+  EXPECT_TRUE(details.ParseFromString(status.error_details()));
+  EXPECT_EQ(details.details_size(), 2);
+  EXPECT_TRUE(details.details_size() == 2 && details.details(1).UnpackTo(&bad));
+  return bad;
+}
+
+std::vector<std::string> fields_of(const google::rpc::BadRequest& bad) {
   std::vector<std::string> fields;
   for (const auto& violation : bad.field_violations()) fields.push_back(violation.field());
   return fields;
@@ -206,10 +210,10 @@ TEST_F(Api, AllWrongFieldsAreReportedTogether) {
   v1::Job none;
   const grpc::Status status = client.create(request, none);
   expect_refused(status, StatusCode::INVALID_ARGUMENT, "SPEC_INVALID");
-  EXPECT_EQ(refused_fields(status),
+  const auto bad = bad_request(status);
+  ASSERT_EQ(fields_of(bad),
             (std::vector<std::string>{"priority", "simulate.film", "simulate.threads"}));
-  EXPECT_NE(status.error_message().find("must be from 1 to 256"), std::string::npos)
-      << status.error_message();
+  EXPECT_EQ(bad.field_violations(2).description(), "must be from 1 to 256");
 }
 
 TEST_F(Api, WrongFieldsAreReportedBeforeTheCalibrationIsLookedUp) {
@@ -221,7 +225,7 @@ TEST_F(Api, WrongFieldsAreReportedBeforeTheCalibrationIsLookedUp) {
   v1::Job none;
   const grpc::Status status = client.create(request, none);
   expect_refused(status, StatusCode::INVALID_ARGUMENT, "SPEC_INVALID");
-  const auto fields = refused_fields(status);
+  const auto fields = fields_of(bad_request(status));
   EXPECT_TRUE(std::count(fields.begin(), fields.end(), "simulate.scale")) << status.error_message();
   EXPECT_TRUE(std::count(fields.begin(), fields.end(), "simulate.dpi")) << status.error_message();
 }
