@@ -61,7 +61,8 @@ std::vector<std::string> flags_of(const CLI::App* app) {
 }
 
 // Describes the first word that was not understood, and suggests a similar command or flag. Returns
-// an empty text if all words were understood, or if the word is no flag and `app` has no commands.
+// an empty text if all words were understood, or if `app` has no commands and the word is not a
+// flag.
 std::string unknown_word(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty()) return "";
   const bool is_flag = words.front().starts_with("-");

@@ -44,8 +44,8 @@ class PeopleApi : public ::testing::Test {
     request.mutable_user()->set_role(role);
     request.set_password(kPassword);
     v1::User user;
-    const auto status = client.people->CreateUser(client.context().get(), request, &user);
-    ASSERT_TRUE(status.ok()) << status.error_message();
+    throw_unless_ok(client.people->CreateUser(client.context().get(), request, &user),
+                    "CreateUser");
   }
   v1::SignInResponse sign_in(const std::string& name) {
     Client client(daemon.address());
@@ -53,16 +53,15 @@ class PeopleApi : public ::testing::Test {
     request.set_user(name);
     request.set_password(kPassword);
     v1::SignInResponse reply;
-    const auto status = client.people->SignIn(client.context().get(), request, &reply);
-    EXPECT_TRUE(status.ok()) << status.error_message();
+    throw_unless_ok(client.people->SignIn(client.context().get(), request, &reply), "SignIn");
     return reply;
   }
   std::string key_of(const std::string& name) {
     Client client(daemon.address());
     client.session = sign_in(name).session_token();
     v1::CreateApiKeyResponse reply;
-    const auto status = client.people->CreateApiKey(client.context().get(), {}, &reply);
-    EXPECT_TRUE(status.ok()) << status.error_message();
+    throw_unless_ok(client.people->CreateApiKey(client.context().get(), {}, &reply),
+                    "CreateApiKey");
     return reply.key();
   }
   /// A client with that user's key; without a key for "".

@@ -17,12 +17,6 @@ namespace {
 
 constexpr int kPatience_s = 120;  // a real computation may take a minute on a busy machine
 
-void check(const grpc::Status& status, const char* call) {
-  if (status.ok()) return;
-  throw std::runtime_error(std::string(call) + ": " + std::to_string(status.error_code()) + " " +
-                           status.error_message());
-}
-
 std::vector<std::string> command(std::vector<std::string> arguments) {
   // The leak checker needs ptrace, which workers may not use.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
@@ -31,6 +25,12 @@ std::vector<std::string> command(std::vector<std::string> arguments) {
 }
 
 }  // namespace
+
+void throw_unless_ok(const grpc::Status& status, const char* call) {
+  if (status.ok()) return;
+  throw std::runtime_error(std::string(call) + ": " + std::to_string(status.error_code()) + " " +
+                           status.error_message());
+}
 
 bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
 
@@ -84,8 +84,10 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options option
 }
 
 DaemonProcess::~DaemonProcess() {
+  const bool has_ended = process_ && !process_->running();
+  if (has_ended) std::cerr << "hydroprintd ended with status " << process_->wait().status << '\n';
   process_.reset();
-  if (::testing::Test::HasFailure()) std::cerr << content(folder_ / "err");
+  if (has_ended || ::testing::Test::HasFailure()) std::cerr << log();
 }
 
 void DaemonProcess::start() {
@@ -160,7 +162,7 @@ std::string Client::upload(const std::string& bytes) {
   request.set_size_bytes(static_cast<std::int64_t>(bytes.size()));
   request.set_sha256(hash_of(bytes));
   v1::StartUploadResponse started;
-  check(assets->StartUpload(context().get(), request, &started), "StartUpload");
+  throw_unless_ok(assets->StartUpload(context().get(), request, &started), "StartUpload");
   if (started.has_asset()) return started.asset().name();
   v1::UploadChunkResponse reply;
   const auto call = context();
@@ -175,7 +177,7 @@ std::string Client::upload(const std::string& bytes) {
     if (!writer->Write(chunk)) break;
   } while (offset < bytes.size());
   writer->WritesDone();
-  check(writer->Finish(), "UploadChunk");
+  throw_unless_ok(writer->Finish(), "UploadChunk");
   return reply.asset().name();
 }
 
@@ -185,7 +187,7 @@ grpc::Status Client::create(const v1::CreateJobRequest& request, v1::Job& job) {
 
 v1::Job Client::simulate(const std::string& mesh) {
   v1::Job job;
-  check(create(simulate_request(upload(mesh)), job), "CreateJob");
+  throw_unless_ok(create(simulate_request(upload(mesh)), job), "CreateJob");
   return job;
 }
 
@@ -193,7 +195,7 @@ v1::Job Client::job(const std::string& name) {
   v1::GetJobRequest request;
   request.set_name(name);
   v1::Job job;
-  check(jobs->GetJob(context().get(), request, &job), "GetJob");
+  throw_unless_ok(jobs->GetJob(context().get(), request, &job), "GetJob");
   return job;
 }
 
@@ -201,7 +203,7 @@ v1::Job Client::cancel(const std::string& name) {
   v1::CancelJobRequest request;
   request.set_name(name);
   v1::Job job;
-  check(jobs->CancelJob(context().get(), request, &job), "CancelJob");
+  throw_unless_ok(jobs->CancelJob(context().get(), request, &job), "CancelJob");
   return job;
 }
 
@@ -229,7 +231,7 @@ std::vector<v1::JobEvent> Client::events(const std::string& name) {
   request.set_parent(name);
   request.set_page_size(1000);
   v1::ListJobEventsResponse reply;
-  check(jobs->ListJobEvents(context().get(), request, &reply), "ListJobEvents");
+  throw_unless_ok(jobs->ListJobEvents(context().get(), request, &reply), "ListJobEvents");
   return {reply.events().begin(), reply.events().end()};
 }
 
@@ -245,13 +247,13 @@ std::string Client::download(const std::string& artifact, std::int64_t offset) {
     EXPECT_EQ(chunk.offset(), offset + static_cast<std::int64_t>(bytes.size()));
     bytes += chunk.data();
   }
-  check(reader->Finish(), "DownloadArtifact");
+  throw_unless_ok(reader->Finish(), "DownloadArtifact");
   return bytes;
 }
 
 v1::Queue Client::queue() {
   v1::Queue queue;
-  check(queues->GetQueue(context().get(), {}, &queue), "GetQueue");
+  throw_unless_ok(queues->GetQueue(context().get(), {}, &queue), "GetQueue");
   return queue;
 }
 
@@ -259,12 +261,12 @@ void Client::pause() {
   v1::PauseQueueRequest request;
   request.set_reason("test");
   v1::Queue queue;
-  check(queues->PauseQueue(context().get(), request, &queue), "PauseQueue");
+  throw_unless_ok(queues->PauseQueue(context().get(), request, &queue), "PauseQueue");
 }
 
 void Client::resume() {
   v1::Queue queue;
-  check(queues->ResumeQueue(context().get(), {}, &queue), "ResumeQueue");
+  throw_unless_ok(queues->ResumeQueue(context().get(), {}, &queue), "ResumeQueue");
 }
 
 v1::CreateJobRequest simulate_request(const std::string& asset, const std::string& name) {

@@ -47,6 +47,10 @@ struct Ended {
 /// arguments set one.
 Ended run_daemon(std::vector<std::string> arguments);
 
+/// Throws an error that names the call, unless it succeeded: what follows would wait in vain for a
+/// daemon that has died.
+void throw_unless_ok(const grpc::Status& status, const char* call);
+
 /// The spec that daemon_fake_worker received, from its report or its spec.json.
 nlohmann::json given_spec(const std::string& report);
 
