@@ -9,7 +9,7 @@
 
 namespace hydroprint::admin {
 
-/// Content of a backup or a restored state folder.
+/// Summary of the content of a backup or of a restored state folder.
 struct Contents {
   std::int64_t jobs = 0, files = 0, bytes = 0;
   std::vector<std::string> warnings;  ///< damaged files that were skipped

@@ -8,7 +8,7 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStopPatience{2000};
-// Largest number of connections beyond Limits::connections that get an error response at the same
+// Maximum number of connections beyond Limits::connections that get an error response at the same
 // time. Further connections are closed without a response.
 constexpr int kMaxRejected = 64;
 

@@ -6,7 +6,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// Largest number of violations in an error, because gRPC limits the size of its details to 8 KiB.
+// Maximum number of violations in an error, because gRPC limits the size of its details to 8 KiB.
 constexpr std::size_t kMostViolations = 16;
 // Prefix of a violation's metadata key; it is followed by a letter that keeps the order, and the
 // field.

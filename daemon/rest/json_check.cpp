@@ -118,7 +118,7 @@ class Checker : public nlohmann::json_sax<json> {
     return false;
   }
 
-  // Returns the error for invalid JSON at a byte of the text.
+  // Returns the error for invalid JSON at this byte offset.
   [[nodiscard]] Error no_json(std::size_t at, std::string_view what) const {
     const std::string_view before = text_.substr(0, at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');

@@ -31,7 +31,7 @@ class Transcoder {
   /// - a request that contains Any, Struct, Value or ListValue.
   [[nodiscard]] static Result<Transcoder> make();
 
-  /// Same as make(), only for services with these full names.
+  /// Same as make(), but only for the services with these full names.
   [[nodiscard]] static Result<Transcoder> make(const std::vector<std::string>& services);
 
   /// Finds the call that a request asks for. For a call that stops motion, body and query are

@@ -19,8 +19,9 @@ class RigReference {
 
   /// Reads the stored counts. Must be called first.
   [[nodiscard]] Status load();
-  /// Checks whether the rig was homed since the last call. Must be called often. (A homing that is
-  /// forgotten when the daemon exits does no harm: after the start, homing is required again.)
+  /// Counts a homing if the rig was homed since the last call. Must be called often enough to
+  /// notice each homing. A homing that is not stored before the daemon exits does no harm: after
+  /// the start, homing is required again.
   void look() { (void)place(); }
   /// Returns the current state of the rig.
   [[nodiscard]] RigPlace place();

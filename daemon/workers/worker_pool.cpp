@@ -177,7 +177,8 @@ void WorkerPool::Impl::wait_for_something() const {
   }
   ::poll(fds.data(), fds.size(), runs.empty() ? kIdleTick_ms : kTick_ms);
   std::uint64_t wakeups = 0;
-  if (::read(notifier.get(), &wakeups, sizeof wakeups) < 0) return;  // woken by something else
+  // Fails if poll() ended for another reason.
+  if (::read(notifier.get(), &wakeups, sizeof wakeups) < 0) return;
 }
 
 void WorkerPool::Impl::cancel_asked() {

@@ -12,7 +12,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kTubeMm = 12;  // radius of the tube
-constexpr double kBendMm = 35;  // radius of the tube's middle line
+constexpr double kBendMm = 35;  // radius of the bend, to the tube's centre line
 constexpr double kLegMm = 60;   // length of the straight part
 constexpr int kAround = 96;
 constexpr double kCapMm = pi / 2 * kTubeMm;

@@ -30,7 +30,7 @@ struct Lens {
   double depth_scale = 1;
 
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
-  /// Returns the point of depth 1 on a pixel's ray.
+  /// Returns the point at depth 1 on a pixel's ray.
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const;
   /// Returns ray() of every pixel, row by row.
   [[nodiscard]] std::vector<Eigen::Vector3d> rays() const;

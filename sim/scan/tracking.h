@@ -10,7 +10,8 @@ namespace hydroprint::scan {
 struct Tracked {
   Pose X_WC = Pose::Identity();
   double matched_share = 0;  ///< fraction of the frame's points that were matched
-  double rms_mm = 0;         ///< rms distance of the matched points, along their rays
+  double rms_mm =
+      0;  ///< rms distance of the matched points from the volume's surface, along their rays
   /// Standard error of the pose along the motion that the matches determine worst. Rotations are
   /// converted to mm with a lever arm of 200 mm.
   double sigma_mm = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/beast/http/basic_parser.hpp>
 #include <limits>
-#include <utility>  // Asio 1.74, which Beast uses, does not include what it needs
+#include <utility>
 #include <vector>
 
 namespace hydroprint::http {

@@ -11,7 +11,7 @@
 #include <new>
 #include <optional>
 #include <thread>
-#include <utility>  // Asio 1.74 does not include what it needs
+#include <utility>
 #include <vector>
 
 #include "daemon/http/protocol/plain_transport.h"

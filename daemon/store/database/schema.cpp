@@ -53,8 +53,8 @@ const std::vector<Migration>& migrations() {
         "UPDATE jobs SET keep_from_ms=end_ms", "CREATE INDEX jobs_by_owner ON jobs(owner)",
         "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
         "WITHOUT ROWID"}},
-      // Version 4: the spec of a job is stored as JSON; earlier jobs keep their flags. Properties
-      // of a job's kind become columns of the job's row.
+      // Version 4: the spec of a job is stored as JSON; jobs stored earlier keep the worker's
+      // command-line flags. Properties of a job's kind become columns of the job's row.
       {4,
        {"ALTER TABLE jobs ADD COLUMN spec TEXT NOT NULL DEFAULT ''",
         "ALTER TABLE jobs ADD COLUMN computed INTEGER NOT NULL DEFAULT 1",

@@ -109,7 +109,8 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
   return out;
 }
 
-/// Lists the textures of the model's materials, unless they are embedded in the model's file.
+/// Adds the texture files of the model's materials to the report's inputs. Textures embedded in the
+/// model's file are skipped.
 Status Simulate::add_material_textures(const mesh::Model& model, Report& report) const {
   if (options_.flow.map_only || !options_.texture.empty()) return {};
   for (const mesh::Material& material : model.materials) {

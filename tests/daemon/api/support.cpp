@@ -17,6 +17,16 @@ namespace {
 
 constexpr int kPatience_s = 120;  // a real computation may take a minute on a busy machine
 
+// Returns what ThreadSanitizer reported about a process. Its file is named by TSAN_OPTIONS.
+std::string race_report(pid_t pid) {
+  const char* const set = std::getenv("TSAN_OPTIONS");
+  const std::string options = set == nullptr ? "" : set, key = "log_path=";
+  const std::size_t at = options.find(key);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + key.size();
+  return content(options.substr(from, options.find(' ', from) - from) + "." + std::to_string(pid));
+}
+
 std::vector<std::string> command(std::vector<std::string> arguments) {
   // The leak checker needs ptrace, which workers may not use.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
@@ -85,7 +95,10 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options option
 
 DaemonProcess::~DaemonProcess() {
   const bool has_ended = process_ && !process_->running();
-  if (has_ended) std::cerr << "hydroprintd ended with status " << process_->wait().status << '\n';
+  if (has_ended) {
+    std::cerr << "hydroprintd ended with status " << process_->wait().status << '\n'
+              << race_report(pid());
+  }
   process_.reset();
   if (has_ended || ::testing::Test::HasFailure()) std::cerr << log();
 }
