@@ -236,7 +236,7 @@ def simulations():
                                   files.derived("board.stl",
                                                 lambda: inputs.binary_stl(files.mesh("board").read_text()))],
         "ply-map": lambda files: ["--artifacts", "map", "--model", "stokes", "--mesh",
-                                  files.artifact("stokes-board", "surface_map.ply")]}
+                                  files.artifact("predict-stokes", "landed.ply")]}
     for name, flags in variants.items():
         yield Run(f"simulate-{name}", worker("simulate", flags), is_quick=name in ("polygon", "texture", "stl-map"))
 
