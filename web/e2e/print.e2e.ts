@@ -120,7 +120,7 @@ test('while the object is turned, a preview shows coverage, stretch and warnings
   expect(await reached()).toBeGreaterThan(60);
   await expect.poll(() => panel.locator('.problems li').count()).toBeGreaterThan(0);
   await page.getByRole('radio', { name: 'Stretch' }).check();
-  await page.getByText('Stretch of the film (estimate) [times]').waitFor();
+  await page.getByText('Stretch of the film (estimate) [×]').waitFor();
   await look(person, 'new-print-preview');
 
   const before = await panel.innerText();
@@ -192,7 +192,7 @@ test('a job shows its progress; a cancelled job says so and can be retried', asy
   await page.getByRole('progressbar').waitFor({ timeout: 60_000 });
   await look(person, 'job-underway');
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByRole('button', { name: 'Confirm cancel' }).click();
+  await page.getByRole('button', { name: 'Confirm cancellation' }).click();
   await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
   await look(person, 'job-cancelled');
   const cancelled = page.url();
@@ -200,7 +200,7 @@ test('a job shows its progress; a cancelled job says so and can be retried', asy
   await expect.poll(() => page.url()).not.toBe(cancelled);
   await page.getByText(/retry of/).waitFor();
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByRole('button', { name: 'Confirm cancel' }).click();
+  await page.getByRole('button', { name: 'Confirm cancellation' }).click();
   await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
   expect(person.complaints).toEqual([]);
   await person.context.close();
@@ -254,11 +254,11 @@ test('two users see each other’s jobs; a page recovers when the daemon returns
     .toBe(before + 1);
 
   await daemon.stopDaemon('kill');
-  await mia.page.getByText('The connection to the daemon is lost').waitFor({ timeout: 30_000 });
+  await mia.page.getByText('The connection to the daemon was lost').waitFor({ timeout: 30_000 });
   await look(mia, 'connection-lost');
   await daemon.startDaemon();
   await mia.page
-    .getByText('The connection to the daemon is lost')
+    .getByText('The connection to the daemon was lost')
     .waitFor({ state: 'hidden', timeout: 30_000 });
   await mia.page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await look(max, 'jobs');

@@ -71,7 +71,7 @@ function toMain(event: Event): void {
 function Navigation() {
   const current = route.value.parts[0] ?? '';
   return (
-    <nav aria-label="Screens">
+    <nav aria-label="Pages">
       {kScreens.map(({ path, label, icon }) => (
         <a href={`#/${path}`} aria-current={current === path ? 'page' : undefined}>
           <Icon name={icon} />
@@ -139,8 +139,8 @@ function ConnectionBanner() {
   if (!who.value || link.value !== 'lost') return null;
   return (
     <p class="banner" role="status">
-      The connection to the daemon is lost. This page tries to reconnect and may be out of date. The
-      Stop button may still work; if it fails, press the stop button on the rig.
+      The connection to the daemon was lost. This page is trying to reconnect and may be out of
+      date. The Stop button may still work; if it fails, press the stop button on the rig.
     </p>
   );
 }

@@ -20,6 +20,10 @@ describe('files', () => {
     },
   );
 
+  test('without an extension are refused as what they may be: folders', () => {
+    expect(roleOf('textures')).toEqual({ why: expect.stringContaining('If this is a folder') });
+  });
+
   test('are refused if their first bytes contradict their name', () => {
     expect(contradiction('image', 'a.png', bytes('<svg/>'))).toBeDefined();
     expect(

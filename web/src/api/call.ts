@@ -54,7 +54,7 @@ export async function call<T>(
     try {
       return done((text === '' ? {} : JSON.parse(text)) as T);
     } catch {
-      return refused('the response of the daemon cannot be read', 'Reload the page', {
+      return refused("the daemon's response cannot be read", 'Reload the page', {
         status: 0,
       });
     }

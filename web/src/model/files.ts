@@ -12,6 +12,7 @@ export type Role = 'mesh' | 'material' | 'image' | 'profile';
 
 /** The role of a file by its name, or the reason why the file cannot be used. */
 export function roleOf(name: string): Role | { why: string } {
+  if (!name.includes('.')) return { why: kNoEnding };
   const ending = name.toLowerCase().split('.').at(-1) ?? '';
   const role = kRoles[ending];
   if (role) return role;
@@ -21,6 +22,8 @@ export function roleOf(name: string): Role | { why: string } {
 
 const kWanted =
   'Drop a model (OBJ, PLY, STL or glTF), its MTL and images (PNG, JPEG or TIFF), or a film profile (TOML)';
+
+const kNoEnding = `the name has no file extension. ${kWanted}. If this is a folder, drop the files inside it`;
 
 const kRoles: Record<string, Role> = {
   obj: 'mesh', ply: 'mesh', stl: 'mesh', glb: 'mesh', gltf: 'mesh',

@@ -52,7 +52,7 @@ class GltfReader {
     if (!node) throw damaged(`node ${index} does not exist`);
     if (depth > kDeepest || this.nodes > kMostNodes)
       throw damaged(
-        `node ${index} contains itself, is nested more than ${kDeepest} levels deep, or is one of more than ${kMostNodes} nodes`,
+        `node ${index} contains itself or is nested more than ${kDeepest} levels deep, or the file has more than ${kMostNodes} nodes`,
       );
     const own = times(parent, node.matrix?.length === 16 ? node.matrix : placed(node));
     if (node.mesh !== undefined) {

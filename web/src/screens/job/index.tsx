@@ -103,7 +103,7 @@ function Actions({ job }: { job: Job }) {
       )}
       {mine && !isFinished(job) && job.state !== 'CANCELLING' && (
         <ConfirmButton
-          sure="Confirm cancel"
+          sure="Confirm cancellation"
           onPress={async () => {
             const cancelled = orNotify(await api.cancel(job.name));
             if (cancelled) remember(cancelled);
@@ -215,7 +215,7 @@ function Left({ job }: { job: Job }) {
       )}
       {failure && (
         <p class="warning" role="alert">
-          {failure.what}. {failure.remedy}
+          {failure.what}. {failure.remedy}.
         </p>
       )}
       <Body job={job} results={results} />

@@ -147,7 +147,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
       {mode === 'stretch' && (
         <Legend
           title="Stretch of the film"
-          unit="times"
+          unit="×"
           scale={stretch}
           values={[1, 1.3, 1.6, 2, 2.5, 3, 4, 6].filter((value) => value < tear).concat(tear)}
           beyond="the film tears"

@@ -8,6 +8,7 @@ import { centreOf, longestOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
+import { numberOf } from '../../ui/job_text';
 
 /** The user's choices, as plain values and files that IndexedDB can store. */
 export interface Draft {
@@ -113,7 +114,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
   const { simulate: spec, labels } = answer.value;
   if (!spec)
     return refused(
-      `${name} is not a simulation`,
+      `job ${numberOf(name)} is not a simulation`,
       'Open a simulation and press “Run again with changes”',
     );
   batch(() => {

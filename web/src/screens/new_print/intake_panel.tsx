@@ -70,7 +70,7 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
   useEffect(() => void samples().then(setReady), []);
   return (
     <div class="intake">
-      <h2>{isBusy ? 'Reading…' : 'Drop a model here'}</h2>
+      <h2>{isBusy ? 'Loading…' : 'Drop a model here'}</h2>
       <p>
         Supported models: OBJ (with its MTL), PLY, STL, glTF and GLB. Add the texture image (PNG or
         JPEG) unless it is part of the model.

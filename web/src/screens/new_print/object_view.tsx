@@ -111,7 +111,7 @@ export function ObjectView() {
       {shown.value && coat.value === 'stretch' && (
         <Legend
           title="Stretch of the film (estimate)"
-          unit="times"
+          unit="×"
           scale={kStretch}
           values={[1, 1.3, 1.6, 2, 2.5, 3]}
           beyond="most films tear"

@@ -8,8 +8,8 @@ import { List } from './list';
 
 const kWhat = [
   { value: '', label: 'Everything' },
-  { value: 'RigService.', label: 'The rig' },
-  { value: 'LeaseService.', label: 'The lease' },
+  { value: 'RigService.', label: 'Rig' },
+  { value: 'LeaseService.', label: 'Lease' },
   { value: 'JobService.', label: 'Jobs' },
   { value: 'PeopleService.', label: 'People' },
 ];

@@ -24,7 +24,7 @@ export function Keys() {
   return (
     <section aria-labelledby="keys-title">
       <h2 id="keys-title">API keys</h2>
-      {secret && <Once title="Copy the key now; it is not shown again:" secret={secret} />}
+      {secret && <Once title="Copy the key now. It will not be shown again:" secret={secret} />}
       <List
         heads={['Key', 'User', 'Role', 'Last used', 'Expires', '']}
         failure={failure}

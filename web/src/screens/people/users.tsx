@@ -120,7 +120,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
           label={
             isFirst
               ? 'Password (at least 10 characters)'
-              : 'Password (or leave empty, then create a sign-in link)'
+              : 'Password (at least 10 characters, or none: then create a sign-in link)'
           }
           type="password"
           autocomplete="new-password"

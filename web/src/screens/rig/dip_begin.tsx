@@ -11,6 +11,20 @@ import { Button, NumberField } from '../../ui/controls';
 import { FieldErrorsOf, remedyOf, useFieldErrors } from '../../ui/field_errors';
 import { numberOf } from '../../ui/job_text';
 
+const kFirst: Record<string, string> = {
+  OFFLINE: 'The rig is offline.',
+  DISARMED: 'Arm and home the rig first.',
+  UNHOMED: 'Home the rig first.',
+  FAULT: 'Reset the rig, then arm and home it first.',
+  ESTOPPED: 'Release the stop button, then reset, arm and home the rig first.',
+};
+
+/** What must be done before a dip can start. */
+function first(): string {
+  if (!isOurs.value) return 'Take control of the rig first.';
+  return kFirst[rig.value?.state ?? ''] ?? 'Wait until the axis has stopped.';
+}
+
 /** Starts the guided dip for a film image. */
 export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const [requestId] = useState(newRequestId);
@@ -68,10 +82,7 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       </Button>
       {remedy && <p class="error">{remedy}.</p>}
       {!isReady && (
-        <p class="quiet">
-          {isOurs.value ? 'Arm and home the rig first.' : 'Take control of the rig first.'} Nothing
-          moves until you confirm each step.
-        </p>
+        <p class="quiet">{first()} The dip moves nothing until you confirm each step.</p>
       )}
     </section>
   );
