@@ -21,6 +21,7 @@
 #include "sim/sample/sample.h"
 #include "tests/bench/figures.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::bench {
 namespace {
@@ -59,7 +60,7 @@ std::vector<Body> bodies() {
   for (const auto& [name, file, scale] :
        {std::tuple{"mug", "mug/mug.obj", 10.0},
         std::tuple{"head", "head/LeePerrySmith_converted.obj", 15.0}}) {
-    const std::filesystem::path path = std::filesystem::path(HYDROPRINT_MODELS_DIR) / file;
+    const std::filesystem::path path = testing::model_path(file);
     if (std::filesystem::exists(path))
       out.push_back({name, testing::surface_of(value_of(mesh::read_model(path, scale, {})))});
   }

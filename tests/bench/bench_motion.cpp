@@ -17,6 +17,7 @@
 
 #include "hardware/drive/profile.h"
 #include "tests/daemon/api/rig_support.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -37,7 +38,7 @@ constexpr double kLow_mm = 60;
 
 /// The drive's acceleration, also used for stopping.
 double acceleration() {
-  const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
+  const auto profile = drive::read_drive_profile(testing::drive_profile_path("virtual"));
   if (!profile) throw std::runtime_error(profile.error().message);
   return profile->acceleration_mm_per_s2;
 }

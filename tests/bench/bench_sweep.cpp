@@ -16,6 +16,7 @@
 #include "sim/scan/sweep.h"
 #include "tests/bench/figures.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/paths.h"
 #include "tests/support/swept_camera.h"
 
 namespace hydroprint::bench {
@@ -31,7 +32,7 @@ constexpr double kLeastFrames = 3;
 
 /// The tilted mug, or a ball if the mug's model is missing.
 simulated_scene::Body hung() {
-  const std::filesystem::path mug = std::filesystem::path(HYDROPRINT_MODELS_DIR) / "mug/mug.obj";
+  const std::filesystem::path mug = testing::model_path("mug/mug.obj");
   const mesh::Surface surface =
       testing::surface_of(value_of(std::filesystem::exists(mug) ? mesh::read_model(mug, 10, {})
                                                                 : sample::make_model("sphere80")));

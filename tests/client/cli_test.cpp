@@ -13,6 +13,7 @@
 
 #include "tests/daemon/api/support.h"
 #include "tests/hardware/printer/ipp_printer.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::tests {
@@ -23,7 +24,7 @@ using Outcome = hydroprint::testing::Ended;
 using Arguments = std::vector<std::string>;
 using nlohmann::json;
 
-constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
+const std::string kClient = testing::program_path("hydroprint");
 
 /// Returns a text as one line, with single spaces between words.
 std::string flowing(const std::string& text) {
@@ -385,7 +386,7 @@ TEST_F(Cli, ConnectsToADaemonThatStartsAMomentLater) {
   Process watch({kClient, "--server", address, "watch", "jobs/1"});
   // by now the first attempt to connect has failed
   std::this_thread::sleep_for(std::chrono::milliseconds(150));
-  Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--http", "127.0.0.1:0",
+  Process daemon({testing::program_path("hydroprintd"), "--grpc", address, "--http", "127.0.0.1:0",
                   "--state-dir", (folder_.path() / "another").string()});
   const Outcome ended = early.wait();
   EXPECT_EQ(ended.status, 0) << ended.err;
@@ -527,9 +528,9 @@ TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
 TEST_F(Cli, PythonExampleFetchesTheFilm) {
   start();
   const Outcome ended = hydroprint::testing::run(
-      {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1", "/usr/bin/python3",
-       PYTHON_EXAMPLE, "--server", daemon_->address(), "--mesh", mesh("sleep 0.2"), "--out",
-       out().string()});
+      {"/usr/bin/env", "PYTHONPATH=" + testing::build_path("python"), "PYTHONDONTWRITEBYTECODE=1",
+       "/usr/bin/python3", testing::source_path("client/python/submit_and_fetch.py"), "--server",
+       daemon_->address(), "--mesh", mesh("sleep 0.2"), "--out", out().string()});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(content(out() / "film.png").find("film of"), std::string::npos);
 }

@@ -7,6 +7,7 @@
 #include "sim/calibrate/camera_file.h"
 #include "tests/daemon/api/rig_support.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -20,7 +21,8 @@ class LoopCli : public ::testing::Test {
   LoopCli() {
     DaemonProcess::Options options;
     options.extra = rig.section() + "[camera]\ndevice = \"" + rig.camera() +
-                    "\"\npatience_s = 60\nlayout = \"" HYDROPRINT_LAYOUT "\"\n";
+                    "\"\npatience_s = 60\nlayout = \"" +
+                    testing::source_path("deploy/rig_layout.toml.example") + "\"\n";
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     registration::CameraCalibration camera;
     camera.lens = testing::lens_of(simulated_camera::drawn_lens(kCamera));
@@ -31,7 +33,7 @@ class LoopCli : public ::testing::Test {
   hydroprint::testing::Ended loop(const std::vector<std::string>& more) const {
     std::vector<std::string> all{"/usr/bin/env",
                                  "XDG_RUNTIME_DIR=" + folder.path().string(),
-                                 HYDROPRINT_BIN_DIR "/hydroprint",
+                                 testing::program_path("hydroprint"),
                                  "--server",
                                  daemon->address(),
                                  "loop",
@@ -80,7 +82,7 @@ TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
 
 TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
   const auto ask = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all{HYDROPRINT_BIN_DIR "/hydroprint", "--server", daemon->address(),
+    std::vector<std::string> all{testing::program_path("hydroprint"), "--server", daemon->address(),
                                  "camera"};
     all.insert(all.end(), more.begin(), more.end());
     return hydroprint::testing::run(all);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/daemon/api/support.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/support/terminal.h"
 
@@ -18,7 +19,7 @@ using Outcome = hydroprint::testing::Ended;
 using hydroprint::testing::Terminal;
 using nlohmann::json;
 
-constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
+const std::string kClient = testing::program_path("hydroprint");
 constexpr char kPassword[] = "correct horse";
 
 /// `hydroprint` with user accounts, and the real daemon.

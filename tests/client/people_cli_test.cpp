@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "tests/support/paths.h"
+
 namespace hydroprint::tests {
 namespace {
 
@@ -180,10 +182,10 @@ TEST_F(PeopleCli, ThePythonExampleUsesServerAndKeyFromTheEnvironment) {
   const std::string key = client_json({"keys", "add"}).at("key");
   const auto run = [&](const std::string& with_key) {
     return hydroprint::testing::run(
-        {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1",
+        {"/usr/bin/env", "PYTHONPATH=" + testing::build_path("python"), "PYTHONDONTWRITEBYTECODE=1",
          "HYDROPRINT_SERVER=" + daemon_.address(), "HYDROPRINT_API_KEY=" + with_key,
-         "/usr/bin/python3", PYTHON_EXAMPLE, "--mesh", folder_.write("m.obj", "x").string(),
-         "--out", (folder_.path() / "result").string()});
+         "/usr/bin/python3", testing::source_path("client/python/submit_and_fetch.py"), "--mesh",
+         folder_.write("m.obj", "x").string(), "--out", (folder_.path() / "result").string()});
   };
   EXPECT_NE(run("").err.find("UNAUTHENTICATED"), std::string::npos);
   const Outcome ended = run(key);

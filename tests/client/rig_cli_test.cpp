@@ -9,6 +9,7 @@
 
 #include "tests/client/rig_programs.h"
 #include "tests/daemon/http/http_client.h"
+#include "tests/support/paths.h"
 #include "tests/support/terminal.h"
 
 namespace hydroprint::tests {
@@ -283,8 +284,9 @@ TEST_F(RigCli, ThePythonExamplePrintsTheStateAndStops) {
   programs_.make_ready(6);
   programs_.client({"rig", "move", "200", "--no-wait"});
   const auto ended = hydroprint::testing::run(
-      {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1", "/usr/bin/python3",
-       PYTHON_RIG_EXAMPLE, "--stop", "--server", programs_.daemon.address()});
+      {"/usr/bin/env", "PYTHONPATH=" + testing::build_path("python"), "PYTHONDONTWRITEBYTECODE=1",
+       "/usr/bin/python3", testing::source_path("client/python/rig.py"), "--stop", "--server",
+       programs_.daemon.address()});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("lease: tester (a test)"), std::string::npos) << ended.out;
   EXPECT_TRUE(programs_.rests());

@@ -1,5 +1,7 @@
 #include "tests/client/rig_programs.h"
 
+#include "tests/support/paths.h"
+
 namespace hydroprint::tests {
 namespace {
 
@@ -25,7 +27,7 @@ std::filesystem::path RigPrograms::runtime(const std::string& user) const {
 
 Arguments RigPrograms::command(const Arguments& arguments, const std::string& user) const {
   Arguments all{"/usr/bin/env", "XDG_RUNTIME_DIR=" + runtime(user).string(),
-                HYDROPRINT_BIN_DIR "/hydroprint"};
+                testing::program_path("hydroprint")};
   all.insert(all.end(), {"--owner", user, "--server", daemon.address()});
   all.insert(all.end(), arguments.begin(), arguments.end());
   return all;

@@ -6,6 +6,7 @@
 
 #include "tests/daemon/api/support.h"
 #include "tests/support/certificates.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::tests {
@@ -17,7 +18,7 @@ using hydroprint::testing::Wanted;
 using Words = std::vector<std::string>;
 using Outcome = hydroprint::testing::Ended;
 
-constexpr char kProgram[] = HYDROPRINT_BIN_DIR "/hydroprint";
+const std::string kProgram = testing::program_path("hydroprint");
 constexpr char kSecret[] = "correct horse";
 
 class TlsCli : public ::testing::Test {
@@ -81,7 +82,9 @@ TEST_F(TlsCli, AConfiguredAuthorityIsTrusted) {
 
 TEST_F(TlsCli, CertificatesFromMakeCertificateAreTrusted) {
   const std::string out = (folder.path() / "tls").string();
-  const auto make = [&] { return run({}, {MAKE_CERTIFICATE, "--out", out, "rig.local"}); };
+  const auto make = [&] {
+    return run({}, {testing::source_path("deploy/make-certificate"), "--out", out, "rig.local"});
+  };
   ASSERT_EQ(make().status, 0);
   const std::string made = content(out + "/ca.pem");
   const Outcome again = make();
@@ -89,7 +92,9 @@ TEST_F(TlsCli, CertificatesFromMakeCertificateAreTrusted) {
   EXPECT_EQ(content(out + "/ca.pem"), made) << "a second call uses the existing authority";
   start({{"DNS:localhost"}}, {out + "/certificate.pem", out + "/key.pem"});
   EXPECT_EQ(client({"--server", at("localhost"), "--ca", out + "/ca.pem", "list"}).status, 0);
-  EXPECT_EQ(run({}, {MAKE_CERTIFICATE, "--out", out, "rig local"}).status, 1);
+  EXPECT_EQ(
+      run({}, {testing::source_path("deploy/make-certificate"), "--out", out, "rig local"}).status,
+      1);
 }
 
 TEST_F(TlsCli, AnUntrustedCertificateIsReported) {
@@ -162,9 +167,9 @@ TEST_F(TlsCli, ThePythonExampleUsesTheStoredKey) {
   const auto mesh = folder.write("mesh.obj", "");
   const auto example = [&](const Words& variables) {
     Words all = variables;
-    all.push_back("PYTHONPATH=" PYTHON_STUBS);
-    return run(all, {"/usr/bin/python3", PYTHON_EXAMPLE, "--mesh", mesh.string(), "--out",
-                     (folder.path() / "result").string()});
+    all.push_back("PYTHONPATH=" + testing::build_path("python"));
+    return run(all, {"/usr/bin/python3", testing::source_path("client/python/submit_and_fetch.py"),
+                     "--mesh", mesh.string(), "--out", (folder.path() / "result").string()});
   };
   Outcome ended = example(there);
   EXPECT_NE(ended.status, 0);

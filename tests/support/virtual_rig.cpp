@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "tests/support/paths.h"
 #include "tests/support/timing.h"
 
 namespace hydroprint::testing {
@@ -22,7 +23,7 @@ std::vector<std::string> command(const VirtualRigOptions& options, const Tempora
   const auto scene =
       folder.write("scene.toml",
                    "[axis]\nstart_mm = " + std::to_string(options.start_mm) + "\n" + options.scene);
-  std::vector<std::string> out = {HYDROPRINT_VIRTUAL_RIG,
+  std::vector<std::string> out = {testing::program_path("hydroprint-virtual-rig"),
                                   "--profile",
                                   options.profile,
                                   "--scene",

@@ -6,15 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::testing {
 
 struct VirtualRigOptions {
-  double start_mm = 1;                                        ///< axis position at the start
-  std::string wire = "tcp";                                   ///< "tcp" or "rtu"
-  std::string profile = HYDROPRINT_PROFILES "/virtual.toml";  ///< profile of the simulated drive
-  std::string scene = {};                                     ///< further lines of the scene file
+  double start_mm = 1;                                           ///< axis position at the start
+  std::string wire = "tcp";                                      ///< "tcp" or "rtu"
+  std::string profile = testing::drive_profile_path("virtual");  ///< profile of the simulated drive
+  std::string scene = {};  ///< further lines of the scene file
   /// Names and contents of files that the scene uses.
   std::vector<std::pair<std::string, std::string>> files = {};
   std::vector<std::string> arguments = {};  ///< further arguments of the program

@@ -5,6 +5,7 @@
 
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "tests/daemon/api/rig_support.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 
@@ -22,11 +23,10 @@ class CameraTest : public ::testing::Test {
     rig = std::make_unique<VirtualRig>(options);
   }
   void start_daemon(DaemonProcess::Options options, int patience_s) {
-    options.extra =
-        rig->section() + "[camera]\ndevice = \"" + rig->camera() +
-        "\"\npatience_s = " + std::to_string(patience_s) +
-        "\nlayout = \"" HYDROPRINT_LAYOUT "\"\ngripper_water_mm = " + std::to_string(water_mm) +
-        "\n";
+    options.extra = rig->section() + "[camera]\ndevice = \"" + rig->camera() +
+                    "\"\npatience_s = " + std::to_string(patience_s) + "\nlayout = \"" +
+                    testing::source_path("deploy/rig_layout.toml.example") +
+                    "\"\ngripper_water_mm = " + std::to_string(water_mm) + "\n";
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     connect();
   }

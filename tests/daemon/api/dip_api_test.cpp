@@ -10,6 +10,7 @@
 
 #include "sim/base/input_file.h"
 #include "tests/daemon/api/rig_support.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -541,11 +542,11 @@ TEST(DipOnARealDrive, AlwaysNeedsAnOperator) {
   const TemporaryFolder folder;
   VirtualRig rig;  // its own profile says that the drive is virtual
   auto options = DaemonProcess::fake();
-  std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  std::string profile = *read_text_file(testing::drive_profile_path("virtual"), 1 << 20);
   const std::string is_virtual = "virtual = true";
   profile.replace(profile.find(is_virtual), is_virtual.size(), "virtual = false");
   std::string section = rig.section();
-  const std::string shipped = HYDROPRINT_PROFILES "/virtual.toml";
+  const std::string shipped = testing::drive_profile_path("virtual");
   section.replace(section.find(shipped), shipped.size(), folder.write("real.toml", profile));
   options.extra = section;
   const DaemonProcess daemon(folder.path(), options);

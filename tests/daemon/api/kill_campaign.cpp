@@ -20,6 +20,7 @@
 #include "hardware/rig/limits.h"
 #include "tests/daemon/api/rig_support.h"
 #include "tests/support/campaign.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -292,7 +293,7 @@ void Campaign::restart() {
 }
 
 void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) {
-  const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
+  const auto profile = drive::read_drive_profile(testing::drive_profile_path("virtual"));
   ASSERT_TRUE(profile);
   const double watchdog_s = profile->watchdog->largest_time_s;
   // Homing always uses the same speed, whatever the plan.

@@ -13,6 +13,7 @@
 #include "hydroprint/v1/preview_service.pb.h"
 #include "hydroprint/v1/rig_service.pb.h"
 #include "tests/daemon/api/people_support.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -108,7 +109,8 @@ TEST_F(PeopleApi, EveryMethodAdmitsExactlyTheStatedRoles) {
 TEST_F(PeopleApi, AllServicesAreCovered) {
   std::set<std::string> known, there;
   for (const auto* const service : all_services()) known.insert(service->name());
-  for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROTO_DIR)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::source_path("proto/hydroprint/v1"))) {
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {
       if (line.starts_with("service ")) there.insert(line.substr(8, line.find(' ', 8) - 8));

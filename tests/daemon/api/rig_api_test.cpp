@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "tests/daemon/api/rig_support.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -40,7 +41,7 @@ TEST(NoRig, ApiIsServedAndReportsTheMissingRig) {
 
 TEST(NoRig, UnsafeConfigurationIsRefusedOnOneLine) {
   const auto refused = run_daemon({"--rig", "tcp:127.0.0.1:1502", "--rig-profile",
-                                   HYDROPRINT_PROFILES "/none.toml", "--check-config"});
+                                   testing::drive_profile_path("none"), "--check-config"});
   EXPECT_EQ(refused.status, 3) << refused.words;
   const TemporaryFolder folder;
   const auto torn = folder.write("torn.toml", "[rig]\n\"a\\nb\" = 2\n");
@@ -55,7 +56,7 @@ TEST(NoRig, UnsafeConfigurationIsRefusedOnOneLine) {
   const auto config = folder.write("d.toml", "[rig]\nkeep_out_mm = 2\n");
   const auto unsafe =
       run_daemon({"--rig", "tcp:127.0.0.1:1502", "--rig-profile",
-                  HYDROPRINT_PROFILES "/virtual.toml", "--config", config, "--check-config"});
+                  testing::drive_profile_path("virtual"), "--config", config, "--check-config"});
   EXPECT_EQ(unsafe.status, 3);
   EXPECT_NE(unsafe.words.find("rig.keep_out_mm is 2"), std::string::npos) << unsafe.words;
   EXPECT_EQ(std::count(unsafe.words.begin(), unsafe.words.end(), '\n'), 1) << unsafe.words;
@@ -64,8 +65,8 @@ TEST(NoRig, UnsafeConfigurationIsRefusedOnOneLine) {
 TEST(NoRig, SilentDriveIsOfflineWithAReason) {
   const TemporaryFolder folder;
   auto options = DaemonProcess::fake();
-  options.extra =
-      "[rig]\ndrive = \"tcp:127.0.0.1:1\"\nprofile = \"" HYDROPRINT_PROFILES "/virtual.toml\"\n";
+  options.extra = "[rig]\ndrive = \"tcp:127.0.0.1:1\"\nprofile = \"" +
+                  testing::drive_profile_path("virtual") + "\"\n";
   const DaemonProcess daemon(folder.path(), options);
   RigClient ann(daemon.address());
   ASSERT_TRUE(wait_until([&] { return !ann.rig().trouble().empty(); }));

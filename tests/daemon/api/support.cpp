@@ -11,6 +11,7 @@
 
 #include "google/rpc/status.pb.h"
 #include "sim/base/sha256.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -30,7 +31,7 @@ std::string race_report(pid_t pid) {
 std::vector<std::string> command(std::vector<std::string> arguments) {
   // The leak checker needs ptrace, which workers may not use.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
-  arguments.insert(arguments.begin(), HYDROPRINT_BIN_DIR "/hydroprintd");
+  arguments.insert(arguments.begin(), testing::program_path("hydroprintd"));
   return arguments;
 }
 
@@ -45,7 +46,7 @@ void throw_unless_ok(const grpc::Status& status, const char* call) {
 bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
 
 bool real_worker_is_built() {
-  return std::filesystem::exists(std::string(HYDROPRINT_BIN_DIR) + "/hydroprint-worker");
+  return std::filesystem::exists(testing::program_path("hydroprint-worker"));
 }
 
 Ended run_daemon(std::vector<std::string> arguments) {
@@ -76,7 +77,7 @@ std::string hash_of(const std::string& bytes) { return sha256(bytes); }
 
 DaemonProcess::Options DaemonProcess::fake() {
   Options options;
-  options.worker = FAKE_WORKER;
+  options.worker = testing::program_path("daemon_fake_worker");
   return options;
 }
 

@@ -7,6 +7,7 @@
 
 #include "daemon/config/bind_policy.h"
 #include "daemon/config/rig_config_check.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -21,14 +22,14 @@ bool says(const std::string& message, const std::string& part) {
 }
 
 TEST(Config, ExampleNamesEveryKeyWithItsDefault) {
-  std::ifstream file(HYDROPRINT_EXAMPLE_CONFIG);
+  std::ifstream file(testing::source_path("deploy/hydroprintd.toml.example"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   const auto config = parse_config(text, "example");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(*config, Config{});
   std::string section;
   std::vector<std::string> named;
-  std::ifstream lines(HYDROPRINT_EXAMPLE_CONFIG);
+  std::ifstream lines(testing::source_path("deploy/hydroprintd.toml.example"));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1);
     if (line.find(" = ") != std::string::npos && !line.starts_with("#")) {
@@ -139,12 +140,12 @@ TEST(Config, UnsafeRigIsRefusedWithTheKeysName) {
   EXPECT_FALSE(read_controller_config(config)->has_value()) << "without a drive there is no rig";
   config.rig_drive = "tcp:127.0.0.1:1502";
   EXPECT_TRUE(says(rig_problem(config), "rig.profile is empty"));
-  config.rig_profile = HYDROPRINT_PROFILES "/virtual.toml";
+  config.rig_profile = testing::drive_profile_path("virtual");
   ASSERT_TRUE(read_controller_config(config));
   EXPECT_TRUE((*read_controller_config(config))->profile.is_virtual);
   config.rig.keep_out_mm = 3;
   EXPECT_TRUE(says(rig_problem(config), "rig.keep_out_mm is 3; it must be at least"));
-  config.rig_profile = HYDROPRINT_PROFILES "/leadshine_em2rs.toml";
+  config.rig_profile = testing::drive_profile_path("leadshine_em2rs");
   config.rig.keep_out_mm = 30;
   const auto real = read_controller_config(config);
   ASSERT_TRUE(real) << real.error().message;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "daemon/dip/operator_messages.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::dip {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 const rig::RigConfig kConfig;  // soft limits 2 and 298 mm, at most 10 mm/s
 
 drive::DriveProfile profile() {
-  return drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml").value();
+  return drive::read_drive_profile(testing::drive_profile_path("virtual")).value();
 }
 
 Plan plan_of_depth(double depth_mm) {

@@ -15,6 +15,7 @@
 #include "sim/image/io/grey16.h"
 #include "sim/image/io/image_file.h"
 #include "tests/support/content.h"
+#include "tests/support/paths.h"
 #include "tests/support/virtual_rig.h"
 
 namespace hydroprint::capture {
@@ -28,9 +29,9 @@ using namespace std::string_literals;
 /// free everything when it unloads its drivers, and unloaded code has no name for a suppression.
 #ifdef __SANITIZE_ADDRESS__
 const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0",
-                                           HYDROPRINT_BIN_DIR "/hydroprint-capture"};
+                                           testing::program_path("hydroprint-capture")};
 #else
-const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-capture"};
+const std::vector<std::string> kCapture = {testing::program_path("hydroprint-capture")};
 #endif
 
 /// --patience-s, in s, for operations that are slow on a busy machine but do not hang.

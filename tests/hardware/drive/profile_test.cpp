@@ -5,13 +5,14 @@
 #include <algorithm>
 
 #include "sim/base/input_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::drive {
 namespace {
 
 std::string virtual_profile() {
-  return *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  return *read_text_file(testing::drive_profile_path("virtual"), 1 << 20);
 }
 
 Result<DriveProfile> profile(const std::string& toml) {
@@ -143,7 +144,8 @@ TEST(DriveProfile, ErrorsNameTheLineOfTheKey) {
 
 TEST(DriveProfile, ShippedProfilesAreValidAndSayWhetherTheyWereTried) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROFILES)) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::source_path("hardware/profiles"))) {
     const auto read = read_drive_profile(entry.path());
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_FALSE(read->tried_on_hardware);

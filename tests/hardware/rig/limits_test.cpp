@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/hardware/rig/axis.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::rig {
 namespace {
@@ -55,7 +56,7 @@ TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedWithTheRequiredValue
 }
 
 TEST(Config, TheDefaultsAreValidForTheShippedVirtualDrive) {
-  const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
+  const auto profile = drive::read_drive_profile(testing::drive_profile_path("virtual"));
   ASSERT_TRUE(profile) << profile.error().message;
   const Status sound = check(RigConfig{}, *profile);
   EXPECT_TRUE(sound) << sound.error().message;

@@ -10,6 +10,7 @@
 #include "sim/base/input_file.h"
 #include "tests/hardware/rig/wired_rig.h"
 #include "tests/support/campaign.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::rig {
 namespace {
@@ -20,8 +21,8 @@ class LostOwner : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(LostOwner);
 
 testing::Process own(BenchRig& drive) {
-  return testing::Process({std::string(HYDROPRINT_BIN_DIR) + "/rig_owner", drive.address(),
-                           HYDROPRINT_PROFILES "/virtual.toml"});
+  return testing::Process({testing::program_path("rig_owner"), drive.address(),
+                           testing::drive_profile_path("virtual")});
 }
 
 bool is_dipping(BenchRig& drive) {
@@ -94,7 +95,7 @@ TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
   // The drive's own watchdog takes 5 s here, so an earlier stop must come from the stop channel.
   const testing::TemporaryFolder folder;
   testing::VirtualRigOptions options{.start_mm = 3};
-  std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  std::string profile = *read_text_file(testing::drive_profile_path("virtual"), 1 << 20);
   const std::string good = "largest_time_s = 0.25";
   ASSERT_NE(profile.find(good), std::string::npos);
   options.profile = folder.write(

@@ -10,6 +10,7 @@
 
 #include "sim/image/io/grey16.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,7 +54,7 @@ class Calibrate : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }
   [[nodiscard]] testing::Ended run(std::vector<std::string> all) const {
-    all.insert(all.begin(), HYDROPRINT_BIN_DIR "/hydroprint-worker");
+    all.insert(all.begin(), testing::program_path("hydroprint-worker"));
     return testing::run(all);
   }
   [[nodiscard]] testing::Ended calibrate(const std::vector<std::string>& more,
@@ -82,7 +83,7 @@ class Calibrate : public ::testing::Test {
   testing::TemporaryFolder folder;
   testing::Rig rig;
   Pose X_FO;
-  std::string layout = HYDROPRINT_LAYOUT;
+  std::string layout = testing::source_path("deploy/rig_layout.toml.example");
 };
 
 }  // namespace hydroprint::calibrate

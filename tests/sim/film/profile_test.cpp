@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "sim/base/input_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::film {
@@ -86,10 +87,11 @@ TEST(Profile, RelativeIccProfilesStartAtTheFilesFolder) {
 }
 
 TEST(Profile, ExampleShowsEveryKeyWithItsDefault) {
-  const auto read = read_profile(HYDROPRINT_EXAMPLE_PROFILE);
+  const auto read = read_profile(testing::source_path("deploy/film_profile.toml.example"));
   ASSERT_TRUE(read) << read.error().message;
   expect_equal(*read, Profile{});
-  const auto text = read_text_file(HYDROPRINT_EXAMPLE_PROFILE, 1 << 20);
+  const auto text =
+      read_text_file(testing::source_path("deploy/film_profile.toml.example"), 1 << 20);
   ASSERT_TRUE(text);
   const auto keys = known_keys();
   EXPECT_EQ(keys.size(), 13u);

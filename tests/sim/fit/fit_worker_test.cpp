@@ -15,6 +15,7 @@
 #include "tests/sim/fit/scene.h"
 #include "tests/support/content.h"
 #include "tests/support/names_in.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::fit {
@@ -89,7 +90,7 @@ class FitWorker : public ::testing::Test {
     return folder.path() / name;
   }
   [[nodiscard]] static Arguments command(const Arguments& more, bool with_points = true) {
-    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+    Arguments all = {testing::program_path("hydroprint-worker"),
                      "fit",
                      "--mesh",
                      input("ball.obj"),

@@ -13,6 +13,7 @@
 #include "sim/mesh/read/read_model.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/sample/sample.h"
+#include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::pipeline {
@@ -126,7 +127,7 @@ TEST_P(WholeJobOf, EachColourLandsWhereTheTextureHasIt) {
   EXPECT_GT(right, body.least_right * compared) << "of " << compared << " points";
 }
 
-const fs::path kModels = HYDROPRINT_MODELS_DIR;
+const fs::path kModels = testing::model_path("");
 constexpr double kUpright = std::numbers::pi / 2;
 
 INSTANTIATE_TEST_SUITE_P(Samples, WholeJobOf,

@@ -8,6 +8,7 @@
 #include <regex>
 
 #include "tests/sim/print/raster_files.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::print {
@@ -20,7 +21,7 @@ class Template : public ::testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }
   [[nodiscard]] Ended run(const std::vector<std::string>& more,
                           const std::string& out = "out") const {
-    std::vector<std::string> all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+    std::vector<std::string> all = {testing::program_path("hydroprint-worker"),
                                     "template",
                                     "--mesh",
                                     path("pyramid.obj"),

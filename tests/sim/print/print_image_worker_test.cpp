@@ -14,6 +14,7 @@
 #include "sim/image/io/image_file.h"
 #include "sim/image/io/printer_image.h"
 #include "tests/sim/print/raster_files.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::print {
@@ -54,7 +55,7 @@ class PrintImage : public ::testing::Test {
     ASSERT_TRUE(image::write_png(path("film.png"), image, 300));
   }
   [[nodiscard]] Arguments command(const Arguments& more, const std::string& out = "out") const {
-    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+    Arguments all = {testing::program_path("hydroprint-worker"),
                      "print-image",
                      "--film-image",
                      path("film.png"),

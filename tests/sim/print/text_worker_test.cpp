@@ -8,6 +8,7 @@
 
 #include "sim/image/io/image_file.h"
 #include "tests/sim/print/raster_files.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::print {
@@ -30,7 +31,7 @@ class PageText : public ::testing::Test {
   }
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }
   [[nodiscard]] Arguments print_image(const Arguments& more) const {
-    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+    Arguments all = {testing::program_path("hydroprint-worker"),
                      "print-image",
                      "--film-image",
                      path("film.png"),
@@ -81,12 +82,12 @@ TEST_F(PageText, TheTitleOfASpecFileAndOfATemplateIsTheSame) {
   const std::string spec = folder.write(
       "spec.json", R"({"film_image":{"name":"film.png"},"film":"105x148.5","formats":["pdf"],)"
                    R"("job_name":"Mug 7 - \u00c4rztin GROSS & klein, №3"})");
-  const Ended printed = testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "print-image",
+  const Ended printed = testing::run({testing::program_path("hydroprint-worker"), "print-image",
                                       "--spec", spec, "--out", path("out")});
   ASSERT_EQ(printed.status, 0) << printed.err;
   EXPECT_NE(text_of("out/print.pdf").find(kTitle), std::string::npos);
   const Ended placed =
-      testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "template", "--mesh",
+      testing::run({testing::program_path("hydroprint-worker"), "template", "--mesh",
                     path("pyramid.obj"), "--job-name", kTitle, "--out", path("placed")});
   ASSERT_EQ(placed.status, 0) << placed.err;
   const std::string text = text_of("placed/placement.pdf");
@@ -231,9 +232,9 @@ TEST_F(PageText, LongTitlesEndInAnEllipsisWithinTheMargin) {
 }
 
 TEST_F(PageText, ALongTitleOfATemplateLeavesTheOtherLinesAlone) {
-  const Ended placed = testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "template", "--mesh",
-                                     path("pyramid.obj"), "--job-name", std::string(2000, 'W'),
-                                     "--out", path("placed")});
+  const Ended placed = testing::run({testing::program_path("hydroprint-worker"), "template",
+                                     "--mesh", path("pyramid.obj"), "--job-name",
+                                     std::string(2000, 'W'), "--out", path("placed")});
   ASSERT_EQ(placed.status, 0) << placed.err;
   EXPECT_NE(placed.err.find("ends in an ellipsis"), std::string::npos) << placed.err;
   const std::string text = text_of("placed/placement.pdf");

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "sim/image/io/image_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::worker {
@@ -27,7 +28,7 @@ using nlohmann::json;
 using testing::Ended;
 using Arguments = std::vector<std::string>;
 
-constexpr char kWorker[] = HYDROPRINT_BIN_DIR "/hydroprint-worker";
+const std::string kWorker = testing::program_path("hydroprint-worker");
 const std::vector<std::string> kExperiments = {"repeatability", "accuracy", "models", "thickness",
                                                "stretch",       "objects",  "bowl"};
 

@@ -4,6 +4,7 @@
 
 #include "sim/image/io/image_file.h"
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -23,7 +24,7 @@ class BadPrint : public Worker {
   [[nodiscard]] Arguments command(const std::string& verb, const std::string& flag,
                                   const std::string& file, const Arguments& more) const {
     Arguments all = {
-        HYDROPRINT_BIN_DIR "/hydroprint-worker", verb, flag, path(file), "--out", out()};
+        testing::program_path("hydroprint-worker"), verb, flag, path(file), "--out", out()};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }

@@ -6,6 +6,7 @@
 
 #include "sim/image/io/image_file.h"
 #include "tests/sim/worker/bodies.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 
@@ -38,7 +39,7 @@ void Worker::SetUp() {
 
 Arguments Worker::simulate(const Arguments& more, bool with_mesh) const {
   Arguments all = {
-      HYDROPRINT_BIN_DIR "/hydroprint-worker", "simulate", "--out", out(), "--threads", "2"};
+      testing::program_path("hydroprint-worker"), "simulate", "--out", out(), "--threads", "2"};
   if (with_mesh) all.insert(all.end(), {"--mesh", path("sphere.obj")});
   const auto has = [&](const char* flag) {
     return std::find(more.begin(), more.end(), flag) != more.end();
@@ -50,7 +51,7 @@ Arguments Worker::simulate(const Arguments& more, bool with_mesh) const {
 }
 
 Arguments Worker::predict(const Arguments& more) const {
-  Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+  Arguments all = {testing::program_path("hydroprint-worker"),
                    "predict",
                    "--mesh",
                    path("sphere.obj"),

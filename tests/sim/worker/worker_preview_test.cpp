@@ -12,6 +12,7 @@
 #include <set>
 
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -104,7 +105,7 @@ nlohmann::json turned(int id, double quarter_turns) {
 class Preview : public Worker {
  protected:
   [[nodiscard]] Arguments preview(const Arguments& more = {}) const {
-    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker", "preview", "--threads", "2"};
+    Arguments all = {testing::program_path("hydroprint-worker"), "preview", "--threads", "2"};
     all.insert(all.end(), more.begin(), more.end());
     if (more.empty()) all.insert(all.end(), {"--mesh", path("sphere.obj")});
     return all;

@@ -15,6 +15,7 @@
 
 #include "tests/sim/worker/bodies.h"
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -129,7 +130,7 @@ TEST_F(Worker, OutOfMemoryIsAnOrdinaryErrorWithAdviceForTheVerb) {
       << ended.err;
   EXPECT_EQ(names_in(folder.path()), before);
   options.limits = {{RLIMIT_AS, rlim_t{400} << 20}};
-  const Ended page = testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "template", "--mesh",
+  const Ended page = testing::run({testing::program_path("hydroprint-worker"), "template", "--mesh",
                                    path("big.obj"), "--out", out()},
                                   options);
   EXPECT_NE(page.err.find("out of memory. Use a smaller model or more memory"), std::string::npos)

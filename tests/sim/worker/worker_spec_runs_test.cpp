@@ -9,6 +9,7 @@
 
 #include "sim/image/io/image_file.h"
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -42,7 +43,7 @@ class SpecRun : public Worker {
   }
 
   [[nodiscard]] std::map<std::string, std::string> artifacts(const Arguments& arguments) const {
-    Arguments command = {HYDROPRINT_BIN_DIR "/hydroprint-worker"};
+    Arguments command = {testing::program_path("hydroprint-worker")};
     command.insert(command.end(), arguments.begin(), arguments.end());
     command.insert(command.end(), {"--out", out()});
     const Ended ended = testing::run(command);
@@ -189,8 +190,8 @@ TEST_F(SpecRun, ReadsStdinToo) {
   ProcessOptions options;
   const int spec = ::open(path("spec.json").c_str(), O_RDONLY | O_CLOEXEC);
   options.inherited = {{STDIN_FILENO, spec}};
-  const Ended ended = testing::run({HYDROPRINT_BIN_DIR "/hydroprint-worker", "simulate", "--spec",
-                                    "-", "--inputs", folder.path(), "--out", out()},
+  const Ended ended = testing::run({testing::program_path("hydroprint-worker"), "simulate",
+                                    "--spec", "-", "--inputs", folder.path(), "--out", out()},
                                    options);
   ::close(spec);
   EXPECT_EQ(ended.status, 0) << ended.err;
@@ -204,7 +205,8 @@ TEST_F(SpecRun, OfPreviewAnswersRequests) {
   const int requests = ::open(path("requests").c_str(), O_RDONLY | O_CLOEXEC);
   options.inherited = {{STDIN_FILENO, requests}};
   const Ended ended = testing::run(
-      {HYDROPRINT_BIN_DIR "/hydroprint-worker", "preview", "--spec", path("spec.json")}, options);
+      {testing::program_path("hydroprint-worker"), "preview", "--spec", path("spec.json")},
+      options);
   ::close(requests);
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("{\"id\":7,\"pose\":"), std::string::npos);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -14,8 +15,12 @@ class BadSpec : public Worker {
   /// Runs `verb` with a spec.json that has this content.
   [[nodiscard]] Arguments run_of(const std::string& verb, const std::string& json) const {
     folder.write("spec.json", json);
-    return {
-        HYDROPRINT_BIN_DIR "/hydroprint-worker", verb, "--spec", path("spec.json"), "--out", out()};
+    return {testing::program_path("hydroprint-worker"),
+            verb,
+            "--spec",
+            path("spec.json"),
+            "--out",
+            out()};
   }
   void expect_bad_spec(const std::string& verb, const std::string& json,
                        const Arguments& words) const {
@@ -107,7 +112,7 @@ TEST_F(BadSpec, FlagsBesideASpecAreBadUsage) {
     expect_refusal(2, command, {flags[0] + ": ", "--spec"});
   }
   expect_refusal(2, simulate({"--inputs", folder.path()}), {"--inputs: ", "--spec"});
-  expect_refusal(2, {HYDROPRINT_BIN_DIR "/hydroprint-worker", "simulate", "--spec", "x.json"},
+  expect_refusal(2, {testing::program_path("hydroprint-worker"), "simulate", "--spec", "x.json"},
                  {"--out"});
 }
 

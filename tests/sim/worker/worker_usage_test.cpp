@@ -5,12 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/sim/worker/worker_fixture.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::worker {
 namespace {
 
 TEST_F(Worker, UsageErrorsEndWithStatusTwo) {
-  const std::string worker = HYDROPRINT_BIN_DIR "/hydroprint-worker";
+  const std::string worker = testing::program_path("hydroprint-worker");
   expect_refusal(2, {worker}, {"--help"});
   expect_refusal(2, {worker, "dance"}, {"--help"});
   expect_refusal(2, {worker, "simulate"}, {"required"});
@@ -34,7 +35,7 @@ TEST_F(Worker, UsageErrorsEndWithStatusTwo) {
 }
 
 TEST_F(Worker, HelpAndVersionGoToStdout) {
-  const std::string worker = HYDROPRINT_BIN_DIR "/hydroprint-worker";
+  const std::string worker = testing::program_path("hydroprint-worker");
   for (const Arguments& command :
        {Arguments{worker, "--help"}, {worker, "simulate", "--help"}, {worker, "predict", "-h"}}) {
     const Ended ended = testing::run(command);

@@ -3,12 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/hardware/simulator/drive/bench_rig.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
 
-const std::string kProgram = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
-const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
+const std::string kProgram = testing::program_path("hydroprint-virtual-rig");
+const std::string kProfile = testing::drive_profile_path("virtual");
 
 TEST(Program, PrintsItsAddressesAcceptsActionsAndExitsCleanly) {
   testing::VirtualRig rig({.wire = "rtu", .arguments = {"--tcp", "0"}});

@@ -4,6 +4,7 @@
 
 #include "sim/base/input_file.h"
 #include "tests/hardware/simulator/drive/bench_rig.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -17,7 +18,7 @@ always_stops = true
 
 class RealDrive : public ::testing::TestWithParam<const char*> {
  protected:
-  static std::string path() { return std::string(HYDROPRINT_PROFILES "/") + GetParam() + ".toml"; }
+  static std::string path() { return testing::drive_profile_path(GetParam()); }
 
   /// Options with the profile as shipped. `with_watchdog` adds an invented watchdog if the profile
   /// has none, so that the drive may move.

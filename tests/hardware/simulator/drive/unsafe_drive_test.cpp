@@ -1,6 +1,7 @@
 // Drives that must not be armed, and drives that do not match the profile.
 #include "sim/base/input_file.h"
 #include "tests/hardware/simulator/drive/bench_rig.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -72,11 +73,11 @@ TEST_P(UnsafeDrive, DriveWithoutAWatchdogIsNeverSafe) {
 
 TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndDisconnected) {
   const testing::TemporaryFolder folder;
-  std::string text = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  std::string text = *read_text_file(testing::drive_profile_path("virtual"), 1 << 20);
   const std::string maker = "value = 0x4850";
   text.replace(text.find(maker), maker.size(), "value = 0x4851");
   BenchRig bench(GetParam(), {.profile = folder.write("other.toml", text).string()});
-  const auto ours = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
+  const auto ours = drive::read_drive_profile(testing::drive_profile_path("virtual"));
   HP_ASSERT_OK(ours);
   drive::Drive drive(*ours, bench.drive().link());
   const auto found = drive.connect();

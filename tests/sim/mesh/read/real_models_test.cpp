@@ -3,6 +3,7 @@
 
 #include "sim/mesh/make_surface.h"
 #include "tests/sim/mesh/files.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::mesh {
 namespace {
@@ -17,9 +18,7 @@ struct Expected {
 
 class RealModel : public ::testing::TestWithParam<Expected> {};
 
-std::filesystem::path model_path(const std::string& name) {
-  return std::filesystem::path(HYDROPRINT_MODELS_DIR) / name;
-}
+std::filesystem::path model_path(const std::string& name) { return testing::model_path(name); }
 
 TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
   const auto& expected = GetParam();

@@ -12,6 +12,7 @@
 #include "sim/sample/icosphere.h"
 #include "tests/sim/registration/limits.h"
 #include "tests/support/depth_scene.h"
+#include "tests/support/paths.h"
 
 namespace hydroprint::registration {
 namespace {
@@ -205,7 +206,7 @@ TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {
 TEST(Object, RealModelsAreFound) {
   for (const auto& [file, scale] :
        {std::pair{"mug/mug.obj", 10.0}, std::pair{"head/LeePerrySmith_converted.obj", 15.0}}) {
-    const std::filesystem::path path = std::filesystem::path(HYDROPRINT_MODELS_DIR) / file;
+    const std::filesystem::path path = testing::model_path(file);
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " does not exist";
     const auto model = mesh::read_model(path, scale, {});
     ASSERT_TRUE(model);
