@@ -29,6 +29,9 @@ constexpr double kLeastOnShare = 0.85;
 constexpr double kMaxThroughShare = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kMismatchTolerance = 0.03;
+constexpr double kSigmas = 3;
+/// Misfits this close are equal: fits end within a few micrometres of each other.
+constexpr double kSameMisfit_mm = 0.01;
 /// A connected piece off the mesh with a larger share of the points is a second object.
 constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
@@ -36,12 +39,20 @@ constexpr double kMostlySeen = 0.6;
 constexpr double kOutOfView = 0.15;
 constexpr double kHidden = 0.4;
 
+/// Rms, over blocks of pixels, of the mean distance of a block's points from the mesh.
+struct Misfit {
+  double rms_mm = 0;
+  double blocks = 0;
+};
+
 /// A pose and how well it explains the scan.
 struct Candidate {
   PoseFit fit;
   Sight sight;
   double on_share = 0;
   double misfit_mm = 0;
+  double misfit_blocks = 0;
+  double distance_mm = 0;  ///< rms distance of the scan from the mesh; farther points count kOn_mm
 
   [[nodiscard]] double mismatch() const {
     return 1 - on_share + sight.through + misfit_mm / (10 * kMostMisfit_mm);
@@ -52,7 +63,7 @@ struct Candidate {
   }
 };
 
-double misfit_of(const std::vector<Pair>& pairs, int width_px) {
+Misfit misfit_of(const std::vector<Pair>& pairs, int width_px) {
   struct Block {
     double sum = 0;
     std::size_t count = 0;
@@ -71,7 +82,20 @@ double misfit_of(const std::vector<Pair>& pairs, int width_px) {
     squares += mean * mean;
     ++count;
   }
-  return count > 0 ? std::sqrt(squares / count) : 0;
+  return {count > 0 ? std::sqrt(squares / count) : 0, count};
+}
+
+/// Returns whether a candidate explains the scan as well as another one, within three standard
+/// errors of noise: of the number of points on the surface, which is binomial, and of an rms over
+/// independent blocks, 1 / sqrt(2 n) of its value.
+bool equals_within_noise(const Candidate& candidate, const Candidate& best) {
+  const double given = static_cast<double>(best.fit.points) / best.fit.paired_share;
+  const double points_sigma =
+      std::sqrt(given * best.fit.paired_share * (1 - best.fit.paired_share));
+  const double fewest = static_cast<double>(best.fit.points) - kSigmas * points_sigma - 1;
+  const double misfit_sigma = best.misfit_mm / std::sqrt(2 * std::max(1.0, best.misfit_blocks));
+  return static_cast<double>(candidate.fit.points) >= fewest &&
+         candidate.misfit_mm <= best.misfit_mm + kSigmas * misfit_sigma + kSameMisfit_mm;
 }
 
 class Finder {
@@ -138,25 +162,40 @@ class Finder {
   }
 
   Result<Candidate> judged(const PoseFit& fit) const {
-    Candidate out{
-        fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, camera_.lens, kSight_mm), 0,
-        0};
+    Candidate out;
+    out.fit = fit;
+    out.sight = look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, camera_.lens, kSight_mm);
     const Pose X_BC = fit.X_CB.inverse();
-    for (const auto& p : points_) out.on_share += distance(X_BC, p) < kOn_mm ? 1 : 0;
-    out.on_share /= static_cast<double>(points_.size());
+    const auto count = static_cast<double>(points_.size());
+    double squares = 0;
+    for (const auto& p : points_) {
+      const double distance_mm = distance(X_BC, p);
+      out.on_share += distance_mm < kOn_mm ? 1 / count : 0;
+      squares += std::pow(std::min(distance_mm, kOn_mm), 2);
+    }
+    out.distance_mm = std::sqrt(squares / count);
     HP_ASSIGN_OR_RETURN(const auto pairs,
                         pair_up(shape_, points_, fit.X_CB, Pairing::kOnRay, kOn_mm, context_));
-    out.misfit_mm = misfit_of(pairs, camera_.lens.width_px);
+    const Misfit misfit = misfit_of(pairs, camera_.lens.width_px);
+    out.misfit_mm = misfit.rms_mm;
+    out.misfit_blocks = misfit.blocks;
     return out;
   }
 
-  /// Of the candidates that are about as good as the best, returns the one with the smallest
-  /// rotation from the nominal pose.
+  /// Of the candidates that explain the scan as well as the best one within noise, returns the one
+  /// with the smallest rotation from the nominal pose.
   [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
     double least = 1e9;
     for (const Candidate& c : tried) least = std::min(least, c.mismatch());
+    const auto is_near = [&](const Candidate& c) {
+      return c.mismatch() <= least + kMismatchTolerance;
+    };
+    const Candidate& best =
+        *std::min_element(tried.begin(), tried.end(), [&](const auto& a, const auto& b) {
+          return (is_near(a) ? a.distance_mm : 1e9) < (is_near(b) ? b.distance_mm : 1e9);
+        });
     const auto turn = [&](const Candidate& c) {
-      if (c.mismatch() > least + kMismatchTolerance) return 1e9;
+      if (!is_near(c) || !equals_within_noise(c, best)) return 1e9;
       return Eigen::AngleAxisd(c.fit.X_CB.linear().transpose() * nominal_.linear()).angle();
     };
     return *std::min_element(tried.begin(), tried.end(),
