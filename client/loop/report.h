@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "client/loop/measure.h"
+#include "sim/base/result.h"
 
 namespace hydroprint::loop {
 
@@ -16,6 +17,9 @@ struct Report {
   std::string camera;  ///< name of the camera calibration, or its file
   std::vector<Round> rounds;
 };
+
+/// Returns kAborted with the figures if the print is worse than its limit.
+[[nodiscard]] Status verdict(const Report& report);
 
 /// Returns the content of report.json.
 [[nodiscard]] std::string report_json(const Report& report);

@@ -154,6 +154,10 @@ TEST(Loop, TheReportShowsTheErrorItsSourcesAndItsLimits) {
   const auto report = nlohmann::json::parse(report_json(of));
   EXPECT_EQ(report["errors"]["placement"]["p95_mm"], 1.4);
   EXPECT_EQ(report["passed"], false);
+  ASSERT_FALSE(verdict(of));
+  EXPECT_EQ(exit_status(verdict(of).error()), ExitStatus::kFailed);
+  EXPECT_NE(verdict(of).error().message.find("within 1.40 mm (limit: "), std::string::npos)
+      << verdict(of).error().message;
   EXPECT_EQ(report["errors"]["numerics"]["max_mm"], 0.2);
   EXPECT_EQ(report["rounds"][0]["truth"]["printer_scale"], 1);
   double sum = 0;

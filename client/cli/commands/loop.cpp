@@ -61,7 +61,7 @@ Status run_loop(Program& program, const LoopOptions& options) {
     print(Json::parse(loop::report_json(report)));
   else
     std::cout << loop::report_text(report) << (folder / "report.html").string() << std::endl;
-  return {};
+  return loop::verdict(report);
 }
 
 constexpr char kLoopFooter[] =
@@ -70,6 +70,7 @@ constexpr char kLoopFooter[] =
     "and dips on the rig. A computation then dips that film image at the true pose, with errors "
     "of\n"
     "axis, film and printer, and measures where the picture's cross-points land.\n"
+    "The exit status is 4 if the error is above its limit.\n"
     "The rig's --scene must have a [camera], and enough space above the water for the object.\n\n"
     "Example:\n"
     "  hydroprint loop --object board --control /tmp/rig --poses 10 --out loop";
