@@ -29,7 +29,7 @@ using nlohmann::json;
 using std::chrono::duration;
 using std::chrono::milliseconds;
 
-const int rounds = testing::campaign_rounds(5);
+const int rounds = testing::campaign_rounds(10);
 const std::uint32_t seed = testing::campaign_seed(1);
 
 // Range of targets: near the home switch, so that homing is short, and beyond the soft limit at
