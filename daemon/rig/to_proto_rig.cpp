@@ -141,18 +141,7 @@ void set_drive(const rig::Controller& controller, v1::Rig& out) {
   set_link_quality(now, *out.mutable_link_quality());
 }
 
-}  // namespace
-
-bool looks_same(v1::Rig a, v1::Rig b) {
-  for (v1::Rig* rig : {&a, &b}) {
-    rig->clear_sample_time();
-    rig->clear_link_quality();
-  }
-  return google::protobuf::util::MessageDifferencer::Equals(a, b);
-}
-
-v1::Rig rig_message(const RigGateway& gateway) {
-  v1::Rig out;
+void set_state(const RigGateway& gateway, v1::Rig& out) {
   if (gateway.controller() != nullptr) {
     set_drive(*gateway.controller(), out);
   } else {
@@ -162,6 +151,25 @@ v1::Rig rig_message(const RigGateway& gateway) {
   if (const auto lease = gateway.leases().current())
     *out.mutable_lease() = to_message(*lease, false);
   if (gateway.dip() != 0) out.set_dip(job_name(gateway.dip()));
+}
+
+}  // namespace
+
+bool looks_same(v1::Rig a, v1::Rig b) {
+  for (v1::Rig* rig : {&a, &b}) {
+    rig->clear_revision();
+    rig->clear_sample_time();
+    rig->clear_link_quality();
+  }
+  return google::protobuf::util::MessageDifferencer::Equals(a, b);
+}
+
+v1::Rig rig_message(const RigGateway& gateway) {
+  v1::Rig out;
+  gateway.read_in_order([&](std::int64_t revision) {
+    out.set_revision(revision);
+    set_state(gateway, out);
+  });
   return out;
 }
 

@@ -135,11 +135,15 @@ TEST_F(HttpRig, StreamShowsTheRigMoving) {
   EXPECT_EQ(stream.read_event().kind, "begin");
   const nlohmann::json move = {{"leaseId", ann.lease_id}, {"positionMm", 12}, {"speedMmPerS", 10}};
   EXPECT_EQ(post("/v1/rig:moveTo", move).status, 200);
+  std::int64_t latest = 0;
   int samples = 0;
   for (bool is_there = false; !is_there; ++samples) {
     const HttpEvent event = stream.read_event();
     EXPECT_EQ(event.id, "");
     const auto now = event.json().at("rig");
+    const std::int64_t revision = std::stoll(now.at("revision").get<std::string>());
+    EXPECT_GT(revision, latest);
+    latest = revision;
     is_there = now.at("state") == "IDLE" && now.at("positionMm").get<double>() > 11.9;
   }
   EXPECT_GT(samples, 3);  // one second of motion, with up to ten messages per second
