@@ -398,6 +398,16 @@ TEST_F(RigApi, RevisionsIncreaseAcrossARestart) {
   EXPECT_GT(RigClient(daemon.address(), "ann").rig().revision(), second);
 }
 
+TEST_F(RigApi, TheLogTellsWhatTheControlLoopGot) {
+  ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
+  const v1::LinkQuality link = ann.rig().link_quality();
+  const std::string entry =
+      "event=rig_thread scheduling=" + v1::LinkQuality::Scheduling_Name(link.scheduling()) +
+      " memory_locked=" + (link.memory_locked() ? "yes" : "no");
+  EXPECT_TRUE(wait_until([&] { return daemon.log().find(entry) != std::string::npos; }))
+      << daemon.log();
+}
+
 TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
   ann.make_ready();
   std::vector<std::unique_ptr<grpc::ClientContext>> contexts;

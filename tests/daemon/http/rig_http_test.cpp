@@ -153,6 +153,26 @@ TEST_F(HttpRig, StreamShowsTheRigMoving) {
       std::string::npos);
 }
 
+TEST_F(HttpRig, MetricsTellWhatTheControlLoopGot) {
+  ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
+  const v1::LinkQuality link = ann.rig().link_quality();
+  ASSERT_NE(link.scheduling(), v1::LinkQuality::SCHEDULING_UNSPECIFIED);
+  const std::string text = ask(daemon.http(), "GET", "/metrics").body;
+  const auto has = [&](const std::string& line) {
+    return text.find("\n" + line + "\n") != std::string::npos;
+  };
+  for (const auto each : {v1::LinkQuality::REAL_TIME, v1::LinkQuality::RAISED_PRIORITY,
+                          v1::LinkQuality::NORMAL_PRIORITY}) {
+    EXPECT_TRUE(has("hydroprint_rig_thread_scheduling{scheduling=\"" +
+                    v1::LinkQuality::Scheduling_Name(each) + "\"} " +
+                    (each == link.scheduling() ? "1" : "0")));
+  }
+  EXPECT_TRUE(
+      has(std::string("hydroprint_rig_memory_locked ") + (link.memory_locked() ? "1" : "0")));
+  EXPECT_NE(text.find("\nhydroprint_drive_late_polls_total "), std::string::npos);
+  EXPECT_LE(link.late_polls(), link.polls());
+}
+
 TEST_F(HttpRig, ThousandsOfConnectionsDoNotDelayTheRig) {
   ann.make_ready();
   const auto skipped = ann.rig().link_quality().skipped_polls();
