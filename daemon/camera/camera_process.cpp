@@ -31,6 +31,7 @@ Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, kDay_s, kLargestPicture};
   out.confined = false;  // needs the camera, and reads nothing else
+  out.niceness = kCameraNiceness;
   return out;
 }
 

@@ -32,6 +32,7 @@ Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, 
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
   out.confined = false;  // needs the camera, and reads nothing else
+  out.niceness = kCameraNiceness;
   return out;
 }
 

@@ -76,6 +76,22 @@ void describe_queue(const ServiceContext& backend, Registry& out) {
             backend.pool.slots(), out);
 }
 
+void describe_scheduling(const v1::LinkQuality& link, Registry& out) {
+  using v1::LinkQuality;
+  if (link.scheduling() == LinkQuality::SCHEDULING_UNSPECIFIED) return;
+  auto& schedulings =
+      add_gauges("hydroprint_rig_thread_scheduling",
+                 "1 for the scheduling of the thread that polls the drive, 0 for others.", out);
+  for (const auto each :
+       {LinkQuality::REAL_TIME, LinkQuality::RAISED_PRIORITY, LinkQuality::NORMAL_PRIORITY}) {
+    schedulings.Add({{"scheduling", LinkQuality::Scheduling_Name(each)}})
+        .Set(link.scheduling() == each ? 1 : 0);
+  }
+  add_gauge("hydroprint_rig_memory_locked",
+            "1 if the memory of the thread that polls the drive cannot be swapped out.",
+            link.memory_locked() ? 1 : 0, out);
+}
+
 void describe_rig(const Rig& rig, Registry& out) {
   auto& states =
       add_gauges("hydroprint_rig_state", "1 for the rig's current state, 0 for others.", out);
@@ -94,12 +110,15 @@ void describe_rig(const Rig& rig, Registry& out) {
               link.missed_polls(), out);
   add_counter("hydroprint_drive_skipped_polls_total", "Poll periods that were skipped.",
               link.skipped_polls(), out);
+  add_counter("hydroprint_drive_late_polls_total",
+              "Polls that began more than half a polling period late.", link.late_polls(), out);
   add_counter("hydroprint_drive_connects_total", "Connections made to the drive.", link.connects(),
               out);
   add_gauge("hydroprint_drive_poll_lateness_max_seconds", "Largest delay of a poll.",
             link.largest_lateness_s(), out);
   add_gauge("hydroprint_drive_poll_lateness_rms_seconds", "Root mean square delay of polls.",
             link.rms_lateness_s(), out);
+  describe_scheduling(link, out);
 }
 
 void describe_process(Registry& out) {

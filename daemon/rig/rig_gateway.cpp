@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include "daemon/platform/clock.h"
 #include "daemon/platform/resource_names.h"
 #include "hardware/rig/errors.h"
 
@@ -68,6 +70,12 @@ void RigGateway::note_stop(const std::string& who) {
 std::vector<std::string> RigGateway::take_stops() {
   const std::lock_guard lock(stops_mutex_);
   return std::exchange(stops_, {});
+}
+
+void RigGateway::read_in_order(const std::function<void(std::int64_t revision)>& read) const {
+  const std::lock_guard lock(revision_mutex_);
+  revision_ = std::max(revision_ + 1, 1000 * system_clock_ms());
+  read(revision_);
 }
 
 bool RigGateway::jogged_lately() const {

@@ -53,6 +53,11 @@ class RigGateway {
   /// Sets whether the dip has exclusive use of the rig.
   void claim(bool by_dip) { claimed_ = by_dip; }
 
+  /// Calls `read` with a revision. Only one thread at a time reads, so a greater revision never
+  /// belongs to an older state. Revisions also increase across restarts of the daemon, unless the
+  /// wall clock is set back in between.
+  void read_in_order(const std::function<void(std::int64_t revision)>& read) const;
+
  private:
   [[nodiscard]] Status check_free() const;
   [[nodiscard]] bool jogged_lately() const;
@@ -62,6 +67,8 @@ class RigGateway {
   std::atomic<std::int64_t> dip_{0};
   std::atomic<bool> claimed_{false};
   std::atomic<std::int64_t> jogged_ms_{0};  // steady clock; 0: never
+  mutable std::mutex revision_mutex_;
+  mutable std::int64_t revision_ = 0;  // of the latest reading; microseconds of the wall clock
   std::mutex stops_mutex_;
   std::vector<std::string> stops_;
 };

@@ -37,12 +37,24 @@ void RigMonitor::look() {
   const bool serving = !wants_help(rig.state());
   if (was_serving_ != serving) set_serving_(serving);
   was_serving_ = serving;
+  log_scheduling(rig.link_quality());
   const std::string state = v1::Rig::State_Name(rig.state()) + (serving ? "" : " " + rig.cause());
   if (std::exchange(state_, state) == state || gateway_.controller() == nullptr) return;
   log(serving ? LogLevel::kInfo : LogLevel::kWarning, "rig_state",
       {{"state", v1::Rig::State_Name(rig.state())},
        {"cause", rig.cause()},
        {"message", rig.trouble()}});
+}
+
+// A warning if the system refused something, because the rig may then stop with LINK_LOST while the
+// machine is busy.
+void RigMonitor::log_scheduling(const v1::LinkQuality& link) {
+  if (is_scheduling_logged_ || link.scheduling() == v1::LinkQuality::SCHEDULING_UNSPECIFIED) return;
+  is_scheduling_logged_ = true;
+  const bool is_full = link.scheduling() == v1::LinkQuality::REAL_TIME && link.memory_locked();
+  log(is_full ? LogLevel::kInfo : LogLevel::kWarning, "rig_thread",
+      {{"scheduling", v1::LinkQuality::Scheduling_Name(link.scheduling())},
+       {"memory_locked", link.memory_locked() ? "yes" : "no"}});
 }
 
 }  // namespace hydroprint::daemon

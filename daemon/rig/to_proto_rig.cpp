@@ -100,6 +100,20 @@ void set_axis(const rig::Controller& controller, double watchdog_s, v1::Axis& ou
   out.set_watchdog_s(watchdog_s);
 }
 
+v1::LinkQuality::Scheduling scheduling_of(Scheduling scheduling) {
+  switch (scheduling) {
+    case Scheduling::kUnknown:
+      return v1::LinkQuality::SCHEDULING_UNSPECIFIED;
+    case Scheduling::kRealTime:
+      return v1::LinkQuality::REAL_TIME;
+    case Scheduling::kRaised:
+      return v1::LinkQuality::RAISED_PRIORITY;
+    case Scheduling::kNormal:
+      return v1::LinkQuality::NORMAL_PRIORITY;
+  }
+  return v1::LinkQuality::SCHEDULING_UNSPECIFIED;
+}
+
 void set_link_quality(const rig::Snapshot& now, v1::LinkQuality& out) {
   out.set_missed_polls(now.missed_polls);
   out.set_connects(now.connects);
@@ -107,6 +121,9 @@ void set_link_quality(const rig::Snapshot& now, v1::LinkQuality& out) {
   out.set_skipped_polls(now.jitter.skipped);
   out.set_largest_lateness_s(now.jitter.largest_s);
   out.set_rms_lateness_s(now.jitter.rms_s);
+  out.set_late_polls(now.jitter.late);
+  out.set_scheduling(scheduling_of(now.priority.scheduling));
+  out.set_memory_locked(now.priority.memory_locked);
 }
 
 void set_alarm(const drive::DriveProfile& profile, int code, v1::Rig& out) {
@@ -141,18 +158,7 @@ void set_drive(const rig::Controller& controller, v1::Rig& out) {
   set_link_quality(now, *out.mutable_link_quality());
 }
 
-}  // namespace
-
-bool looks_same(v1::Rig a, v1::Rig b) {
-  for (v1::Rig* rig : {&a, &b}) {
-    rig->clear_sample_time();
-    rig->clear_link_quality();
-  }
-  return google::protobuf::util::MessageDifferencer::Equals(a, b);
-}
-
-v1::Rig rig_message(const RigGateway& gateway) {
-  v1::Rig out;
+void set_state(const RigGateway& gateway, v1::Rig& out) {
   if (gateway.controller() != nullptr) {
     set_drive(*gateway.controller(), out);
   } else {
@@ -162,6 +168,25 @@ v1::Rig rig_message(const RigGateway& gateway) {
   if (const auto lease = gateway.leases().current())
     *out.mutable_lease() = to_message(*lease, false);
   if (gateway.dip() != 0) out.set_dip(job_name(gateway.dip()));
+}
+
+}  // namespace
+
+bool looks_same(v1::Rig a, v1::Rig b) {
+  for (v1::Rig* rig : {&a, &b}) {
+    rig->clear_revision();
+    rig->clear_sample_time();
+    rig->clear_link_quality();
+  }
+  return google::protobuf::util::MessageDifferencer::Equals(a, b);
+}
+
+v1::Rig rig_message(const RigGateway& gateway) {
+  v1::Rig out;
+  gateway.read_in_order([&](std::int64_t revision) {
+    out.set_revision(revision);
+    set_state(gateway, out);
+  });
   return out;
 }
 

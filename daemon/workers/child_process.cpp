@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -77,6 +78,7 @@ struct ChildPlan {
   int requests, progress, errors, answer, ruleset;
   pid_t parent;
   bool confined;
+  int niceness;
 };
 
 [[noreturn]] void give_up(const char* what) {
@@ -85,6 +87,13 @@ struct ChildPlan {
     if (::write(2, part, std::strlen(part)) < 0) break;
   }
   ::_exit(127);
+}
+
+// Does not change the priority if the daemon already runs at this nice value or a greater one: if
+// it runs as root, the call would raise the priority of its workers.
+void give_way(int niceness) {
+  if (::getpriority(PRIO_PROCESS, 0) >= niceness) return;
+  if (::setpriority(PRIO_PROCESS, 0, niceness) != 0) errno = 0;  // not essential
 }
 
 [[noreturn]] void become_worker(const ChildPlan& plan, const Limits& limits,
@@ -101,6 +110,7 @@ struct ChildPlan {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
   if (::chdir(plan.folder) != 0) give_up(plan.folder);
+  give_way(plan.niceness);
   if (const char* problem =
           plan.confined ? sandbox.confine(limits, plan.ruleset) : Sandbox::limit_use(limits)) {
     give_up(problem);
@@ -129,7 +139,7 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   const ChildPlan plan{what.program.c_str(), argv.data(),         envp.data(),
                        what.inputs.c_str(),  requests.read.get(), progress.write.get(),
                        errors.write.get(),   answer.write.get(),  ruleset.get(),
-                       ::getpid(),           what.confined};
+                       ::getpid(),           what.confined,       what.niceness};
   ChildProcess worker;
   worker.pid = ::fork();
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);

@@ -20,12 +20,14 @@ namespace hydroprint::daemon {
 /// A program to run, with its folders and limits.
 struct Launch {
   std::filesystem::path program;
-  std::vector<std::string> arguments;  ///< without the program's name
-  std::filesystem::path inputs;        ///< working directory, which the program may read
-  std::filesystem::path work;          ///< the only folder that the program may write to
-  Limits limits;
+  std::vector<std::string> arguments = {};  ///< without the program's name
+  std::filesystem::path inputs = {};        ///< working directory, which the program may read
+  std::filesystem::path work = {};          ///< the only folder that the program may write to
+  Limits limits = {};
   bool is_asked = false;  ///< true: the program reads requests from stdin
   bool confined = true;   ///< false: only resource limits; for trusted programs that need a device
+  /// Least nice value of the program: the rig and the daemon's responses have priority over it.
+  int niceness = 10;
 };
 
 /// A running worker. It leads its own process group, and is killed when the thread that started it
@@ -41,6 +43,9 @@ struct ChildProcess {
 
 /// The descriptor of the progress pipe in the worker.
 inline constexpr int kProgressFd = 3;
+
+/// Launch::niceness of programs that own the camera, which drops frames if they are late.
+inline constexpr int kCameraNiceness = 5;
 
 /// Starts a worker, confined unless Launch::confined is false. The calling thread must outlive the
 /// worker.

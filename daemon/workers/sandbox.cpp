@@ -23,7 +23,7 @@ namespace {
 // System calls that fail with EACCES. Sockets of all families are denied: no network, and no
 // contact with other services of the same user. io_uring could open sockets despite the filter, and
 // truncate() bypasses older versions of Landlock. The other calls access other processes, leave the
-// process group or change the kernel.
+// process group, raise a priority or change the kernel.
 constexpr std::array kRefused{
     SCMP_SYS(socket),
     SCMP_SYS(connect),
@@ -55,6 +55,10 @@ constexpr std::array kRefused{
     SCMP_SYS(setsid),
     SCMP_SYS(setpgid),
     SCMP_SYS(truncate),
+    SCMP_SYS(sched_setattr),
+    SCMP_SYS(sched_setparam),
+    SCMP_SYS(sched_setscheduler),
+    SCMP_SYS(setpriority),
     SCMP_SYS(bpf),
     SCMP_SYS(perf_event_open),
     SCMP_SYS(userfaultfd),
@@ -118,15 +122,6 @@ void raise_oom_score() {
   ::close(file);
 }
 
-// The rig and the daemon's responses have priority over computations. The priority is not changed
-// if the daemon already runs at nice 10 or more: if it runs as root, the call would raise the
-// priority of its workers.
-void give_way() {
-  constexpr int kNiceness = 10;
-  if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
-  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // not essential
-}
-
 }  // namespace
 
 Result<Sandbox> Sandbox::make() {
@@ -138,7 +133,8 @@ Result<Sandbox> Sandbox::make() {
 const char* Sandbox::limit_use(const Limits& limits) {
   raise_oom_score();
   if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 256) ||
-      !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
+      !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5) ||
+      !limit(RLIMIT_RTPRIO, 0) || !limit(RLIMIT_NICE, 0)) {
     return "cannot set resource limits";
   }
   // The pool monitors actual use. This limit stops growth that is too fast for the pool, with a
@@ -153,7 +149,6 @@ const char* Sandbox::limit_use(const Limits& limits) {
 }
 
 const char* Sandbox::confine(const Limits& limits, int ruleset) const {
-  give_way();
   if (const char* const failed = limit_use(limits)) return failed;
   if (!apply_ruleset(ruleset)) return "cannot restrict file access";
   const sock_fprog program{static_cast<unsigned short>(filter_.size()),

@@ -17,6 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Kind = Event::Kind;
 
+// Above ordinary threads and any other threads with a low real-time priority, below the kernel's.
+constexpr int kLoopPriority = 10;
 constexpr double kPendingPatience_s = 2;
 constexpr double kStopAgain_s = 0.2;
 constexpr int kStandstillPolls = 2;
@@ -42,7 +44,18 @@ ControlLoop::ControlLoop(const RigConfig& config, drive::Drive& drive, StopChann
       link_monitor_(drive),
       log_(shared.status) {}
 
+/// Locks the memory that each tick uses: this object, the drive, the shared state and the samples.
+ThreadPriority ControlLoop::raise_priority() const {
+  ThreadPriority out = become_real_time(kLoopPriority);
+  const auto samples = shared_.status.samples.memory();
+  out.memory_locked =
+      out.memory_locked && lock_memory(this, sizeof *this) && lock_memory(&drive_, sizeof drive_) &&
+      lock_memory(&shared_, sizeof shared_) && lock_memory(samples.data(), samples.size());
+  return out;
+}
+
 void ControlLoop::run() {
+  priority_ = raise_priority();
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(config_.poll_period_s));
   TimePoint due = Clock::now();
@@ -52,6 +65,7 @@ void ControlLoop::run() {
     const double late_s = seconds_since(due);
     squares += late_s * late_s;
     ++jitter_.ticks;
+    if (late_s > config_.poll_period_s / 2) ++jitter_.late;
     jitter_.largest_s = std::max(jitter_.largest_s, late_s);
     jitter_.rms_s = std::sqrt(squares / static_cast<double>(jitter_.ticks));
     tick();
@@ -328,6 +342,7 @@ void ControlLoop::publish() {
   now.missed_polls = link_monitor_.missed();
   now.connects = link_monitor_.connects();
   now.jitter = jitter_;
+  now.priority = priority_;
   shared_.status.snapshot.store(now);
   (void)shared_.status.put(link_monitor_.trouble());  // if locked, retried at the next tick
   stop_channel_.watch(in_motion(condition_.state), link_monitor_.clean());

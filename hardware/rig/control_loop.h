@@ -33,6 +33,7 @@ class ControlLoop {
   void run();
 
  private:
+  [[nodiscard]] ThreadPriority raise_priority() const;
   void tick();
   void take_stops();
   void look();
@@ -78,6 +79,7 @@ class ControlLoop {
   std::vector<std::pair<std::promise<Answer>, Answer>> answers_;
   TimePoint pending_since_;
   Jitter jitter_;
+  ThreadPriority priority_;
 };
 
 }  // namespace hydroprint::rig

@@ -8,6 +8,7 @@
 
 #include "hardware/rig/samples.h"
 #include "hardware/rig/state.h"
+#include "sim/base/process/real_time_thread.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::rig {
@@ -38,6 +39,7 @@ struct MotionReport {
 struct Jitter {
   std::uint64_t ticks = 0;
   std::uint64_t skipped = 0;  ///< periods skipped because the previous one took longer
+  std::uint64_t late = 0;     ///< polls that began more than half a period late
   double largest_s = 0;       ///< largest delay of a poll
   double rms_s = 0;           ///< rms delay of the polls
 };
@@ -55,6 +57,9 @@ struct Snapshot {
   std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
   Jitter jitter;  ///< increasing Jitter::ticks show that the control loop runs
+  /// What the system has granted to the control loop. `memory_locked` covers its stack, its state
+  /// and the samples.
+  ThreadPriority priority;
 };
 
 /// Data that the control loop publishes without waiting and other threads copy.

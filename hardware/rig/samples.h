@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -40,6 +41,10 @@ class SampleRing {
   [[nodiscard]] std::uint64_t newest() const { return newest_.load(std::memory_order_acquire); }
   /// Returns a copy of the samples `first` to `last` that still exist, oldest first.
   [[nodiscard]] std::vector<Sample> copy(std::uint64_t first, std::uint64_t last) const;
+  /// Returns the memory of the samples, for lock_memory().
+  [[nodiscard]] std::span<const std::byte> memory() const {
+    return std::as_bytes(std::span(*slots_));
+  }
 
  private:
   std::unique_ptr<std::array<Seqlock<Sample>, kSize>> slots_;

@@ -5,11 +5,14 @@
 #include <unistd.h>
 
 #include "hardware/rig/config.h"
+#include "sim/base/process/real_time_thread.h"
 
 namespace hydroprint::rig {
 namespace {
 
 constexpr int kTick_ms = 10;
+// Greater than that of the control loop, which may hang.
+constexpr int kStopPriority = 11;
 
 }  // namespace
 
@@ -53,6 +56,9 @@ bool StopChannel::owner_is_late() const {
 }
 
 void StopChannel::run() {
+  // The system grants the same to the control loop, which reports it.
+  (void)become_real_time(kStopPriority);
+  (void)lock_memory(this, sizeof *this);
   while (!end_ || stop_) {
     pollfd wake{wake_event_, POLLIN, 0};
     ::poll(&wake, 1, in_motion_ ? kTick_ms : -1);

@@ -13,6 +13,10 @@
 
 namespace hydroprint::simulated_drive {
 
+/// FIFO priority (become_real_time) of the threads that replace a drive. Greater than those of its
+/// user, because a real drive does not wait for the user's processor.
+inline constexpr int kDrivePriority = 12;
+
 /// The reply to a request: unit, function and data (empty if the drive does not reply), and the
 /// fault to apply to it.
 struct Answer {

@@ -14,6 +14,7 @@
 
 #include "hardware/drive/serial_line.h"
 #include "hardware/simulator/drive/reply_bytes.h"
+#include "sim/base/process/real_time_thread.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -85,6 +86,7 @@ Status SerialServer::open() {
 }
 
 void SerialServer::serve() {
+  (void)become_real_time(kDrivePriority);
   while (!ends_) {
     const int got = modbus_receive(modbus_, adu_.data());
     if (got > static_cast<int>(kCrc)) {

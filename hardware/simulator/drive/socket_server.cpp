@@ -13,6 +13,9 @@
 #include <cstring>
 #include <utility>
 
+#include "hardware/simulator/drive/plant.h"
+#include "sim/base/process/real_time_thread.h"
+
 namespace hydroprint::simulated_drive {
 namespace {
 
@@ -80,6 +83,7 @@ SocketServer::~SocketServer() {
 }
 
 void SocketServer::accept_all() {
+  (void)become_real_time(kDrivePriority);
   while (!ends_) {
     pollfd wait{socket_, POLLIN, 0};
     ::poll(&wait, 1, kPollInterval_ms);

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hardware/simulator/drive/reply_bytes.h"
+#include "sim/base/process/real_time_thread.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -19,6 +20,7 @@ struct Free {
 
 // libmodbus parses requests. Replies are built here, because a fault may require an incorrect one.
 void serve(Plant& plant, int descriptor) {
+  (void)become_real_time(kDrivePriority);
   const std::unique_ptr<modbus_t, Free> modbus(modbus_new_tcp("127.0.0.1", 0));
   modbus_set_socket(modbus.get(), descriptor);
   std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> adu{};

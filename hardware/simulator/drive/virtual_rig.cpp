@@ -8,6 +8,7 @@
 
 #include "hardware/simulator/drive/reply_bytes.h"
 #include "hardware/simulator/drive/tcp_server.h"
+#include "sim/base/process/real_time_thread.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -16,6 +17,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTick{5};
 constexpr std::size_t kLongestLine = 4096;
+// Below kDrivePriority, because an action may read a mesh. Not an ordinary priority, because
+// actions hold the plant's lock, for which the threads of the drive would wait.
+constexpr int kControlPriority = 1;
 
 Registers registers_of(const Options& options) {
   const auto& watchdog = options.profile.watchdog;
@@ -55,7 +59,10 @@ Result<std::unique_ptr<VirtualRig>> VirtualRig::start(const Options& options) {
                           rig->serve_control(descriptor);
                         }));
   }
-  out->clock_.emplace(kTick, [rig = out.get(), start = Clock::now()] { rig->tick(start); });
+  out->clock_.emplace(kTick, [rig = out.get(), start = Clock::now(), is_first = true]() mutable {
+    if (std::exchange(is_first, false)) (void)become_real_time(kDrivePriority);
+    rig->tick(start);
+  });
   return out;
 }
 
@@ -155,6 +162,7 @@ std::string VirtualRig::reply_to(const std::string& line) {
 }
 
 void VirtualRig::serve_control(int descriptor) {
+  (void)become_real_time(kControlPriority);
   std::string text;
   std::array<char, 512> chunk{};
   for (;;) {

@@ -16,6 +16,7 @@
 //   orphan          leaves a child process behind
 //   socket          reports whether it could open a socket
 //   kill-parent     reports whether it could kill the daemon
+//   hurry           reports whether it could raise its priority
 //   read FILE       reports whether it could read the file
 //   write FILE      reports whether it could write the file
 //
@@ -23,6 +24,7 @@
 // writes print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera
 // write a calibration and spec.json.
 
+#include <sched.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -139,6 +141,15 @@ void execute(const std::string& line) {
     facts += tgkill(getppid(), getppid(), SIGKILL) < 0 ? " no-tgkill" : " TGKILL";
     const rlimit none{};
     facts += prlimit(getppid(), RLIMIT_NOFILE, &none, nullptr) < 0 ? " no-prlimit" : " PRLIMIT";
+  } else if (command == "hurry") {
+    const sched_param least{1};
+    facts += sched_setscheduler(0, SCHED_FIFO, &least) < 0 ? " no-fifo" : " FIFO";
+    const int before = getpriority(PRIO_PROCESS, 0);
+    (void)setpriority(PRIO_PROCESS, 0, before - 1);
+    facts += getpriority(PRIO_PROCESS, 0) < before ? " NICE" : " no-nice";
+    rlimit real_time{};
+    getrlimit(RLIMIT_RTPRIO, &real_time);
+    facts += real_time.rlim_max == 0 ? " no-rtprio" : " RTPRIO";
   } else if (command == "garbage") {
     is_garbage = true;
   } else if (command == "reason") {

@@ -370,7 +370,10 @@ TEST_F(RigApi, WatchShowsEachStateAtTheRequestedRate) {
   std::thread watching([&] {
     const auto begun = Clock::now();
     int messages = 0;
+    std::int64_t latest = 0;
     for (v1::Rig now; reader->Read(&now); ++messages) {
+      EXPECT_GT(now.revision(), latest);
+      latest = now.revision();
       if (seen.empty() || seen.back() != now.state()) seen.push_back(now.state());
       watched = true;
       if (now.state() == v1::Rig::UNHOMED) armed = true;
@@ -383,6 +386,26 @@ TEST_F(RigApi, WatchShowsEachStateAtTheRequestedRate) {
   call->TryCancel();
   watching.join();
   EXPECT_EQ(seen, (std::vector{v1::Rig::DISARMED, v1::Rig::UNHOMED}));
+}
+
+TEST_F(RigApi, RevisionsIncreaseAcrossARestart) {
+  const std::int64_t first = ann.rig().revision();
+  const std::int64_t second = ann.rig().revision();
+  EXPECT_GT(first, 0);
+  EXPECT_GT(second, first);
+  daemon.kill();
+  daemon.start();
+  EXPECT_GT(RigClient(daemon.address(), "ann").rig().revision(), second);
+}
+
+TEST_F(RigApi, TheLogTellsWhatTheControlLoopGot) {
+  ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
+  const v1::LinkQuality link = ann.rig().link_quality();
+  const std::string entry =
+      "event=rig_thread scheduling=" + v1::LinkQuality::Scheduling_Name(link.scheduling()) +
+      " memory_locked=" + (link.memory_locked() ? "yes" : "no");
+  EXPECT_TRUE(wait_until([&] { return daemon.log().find(entry) != std::string::npos; }))
+      << daemon.log();
 }
 
 TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {

@@ -155,6 +155,14 @@ TEST_F(Workers, HaveNoNetworkAndCannotHarmTheDaemon) {
       << report;
 }
 
+TEST_F(Workers, CannotRaiseTheirPriority) {
+  start(DaemonProcess::fake());
+  const v1::Job job = run("hurry");
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string report = client->download(job.name() + "/artifacts/report.json");
+  EXPECT_NE(report.find("no-fifo no-nice no-rtprio"), std::string::npos) << report;
+}
+
 TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
   if (!hydroprint::daemon::fences_work()) GTEST_SKIP() << "this kernel has no Landlock";
   start(DaemonProcess::fake());

@@ -135,11 +135,15 @@ TEST_F(HttpRig, StreamShowsTheRigMoving) {
   EXPECT_EQ(stream.read_event().kind, "begin");
   const nlohmann::json move = {{"leaseId", ann.lease_id}, {"positionMm", 12}, {"speedMmPerS", 10}};
   EXPECT_EQ(post("/v1/rig:moveTo", move).status, 200);
+  std::int64_t latest = 0;
   int samples = 0;
   for (bool is_there = false; !is_there; ++samples) {
     const HttpEvent event = stream.read_event();
     EXPECT_EQ(event.id, "");
     const auto now = event.json().at("rig");
+    const std::int64_t revision = std::stoll(now.at("revision").get<std::string>());
+    EXPECT_GT(revision, latest);
+    latest = revision;
     is_there = now.at("state") == "IDLE" && now.at("positionMm").get<double>() > 11.9;
   }
   EXPECT_GT(samples, 3);  // one second of motion, with up to ten messages per second
@@ -147,6 +151,26 @@ TEST_F(HttpRig, StreamShowsTheRigMoving) {
   EXPECT_NE(
       ask(daemon.http(), "GET", "/metrics").body.find("hydroprint_rig_state{state=\"IDLE\"} 1\n"),
       std::string::npos);
+}
+
+TEST_F(HttpRig, MetricsTellWhatTheControlLoopGot) {
+  ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
+  const v1::LinkQuality link = ann.rig().link_quality();
+  ASSERT_NE(link.scheduling(), v1::LinkQuality::SCHEDULING_UNSPECIFIED);
+  const std::string text = ask(daemon.http(), "GET", "/metrics").body;
+  const auto has = [&](const std::string& line) {
+    return text.find("\n" + line + "\n") != std::string::npos;
+  };
+  for (const auto each : {v1::LinkQuality::REAL_TIME, v1::LinkQuality::RAISED_PRIORITY,
+                          v1::LinkQuality::NORMAL_PRIORITY}) {
+    EXPECT_TRUE(has("hydroprint_rig_thread_scheduling{scheduling=\"" +
+                    v1::LinkQuality::Scheduling_Name(each) + "\"} " +
+                    (each == link.scheduling() ? "1" : "0")));
+  }
+  EXPECT_TRUE(
+      has(std::string("hydroprint_rig_memory_locked ") + (link.memory_locked() ? "1" : "0")));
+  EXPECT_NE(text.find("\nhydroprint_drive_late_polls_total "), std::string::npos);
+  EXPECT_LE(link.late_polls(), link.polls());
 }
 
 TEST_F(HttpRig, ThousandsOfConnectionsDoNotDelayTheRig) {
