@@ -2,15 +2,14 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <chrono>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "tests/client/late_address.h"
 #include "tests/daemon/api/support.h"
 #include "tests/hardware/printer/ipp_printer.h"
 #include "tests/support/paths.h"
@@ -24,6 +23,7 @@ using Outcome = hydroprint::testing::Ended;
 using Arguments = std::vector<std::string>;
 using nlohmann::json;
 
+constexpr double kPatience_s = 120;
 const std::string kClient = testing::program_path("hydroprint");
 
 /// Returns a text as one line, with single spaces between words.
@@ -79,18 +79,19 @@ class Cli : public ::testing::Test {
     Arguments arguments{"watch", submit("sleep 5")};
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     Process watch(command(arguments));
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_TRUE(has_connected(watch));
     client({"queue", "resume"});
     return watch.wait();
   }
 
-  /// Waits until the job has that state; false after 10 s.
+  /// Waits until a watch has printed the state of its job; false after kPatience_s.
+  static bool has_connected(const Process& watch) {
+    return wait_until([&] { return watch.out().ends_with('\n'); }, kPatience_s);
+  }
+
+  /// Waits until the job has that state; false after kPatience_s.
   bool becomes(const std::string& job, const std::string& state) const {
-    for (int i = 0; i < 100; ++i) {
-      if (state_of(job) == state) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    return false;
+    return wait_until([&] { return state_of(job) == state; }, kPatience_s, 0.1);
   }
 
   /// Expects an error whose last line on stderr contains these words.
@@ -380,26 +381,26 @@ TEST_F(Cli, NamesTheAddressWhereNoDaemonResponds) {
 
 TEST_F(Cli, ConnectsToADaemonThatStartsAMomentLater) {
   start();
-  const std::string address = daemon_->address();
-  EXPECT_EQ(daemon_->terminate(), 0);
-  Process early({kClient, "--server", address, "status"});
-  Process watch({kClient, "--server", address, "watch", "jobs/1"});
-  // by now the first attempt to connect has failed
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));
-  Process daemon({testing::program_path("hydroprintd"), "--grpc", address, "--http", "127.0.0.1:0",
-                  "--state-dir", (folder_.path() / "another").string()});
-  const Outcome ended = early.wait();
+  const auto run_early = [&](const Arguments& arguments) {
+    const LateAddress address(daemon_->address());
+    Arguments all{kClient, "--server", address.text()};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome ended = hydroprint::testing::run(all);
+    EXPECT_TRUE(address.has_refused());
+    return ended;
+  };
+  const Outcome ended = run_early({"status"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  const Outcome watched = watch.wait();
+  const Outcome watched = run_early({"watch", "jobs/1"});
   EXPECT_NE(watched.err.find("jobs/1"), std::string::npos) << "answered: " << watched.err;
 }
 
 TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
   start();
-  const std::string job = submit("sleep 30");
+  const std::string job = submit("sleep 600");
   Process watch(command({"watch", job}));
   ASSERT_TRUE(becomes(job, "RUNNING"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(has_connected(watch));
   watch.signal(SIGINT);
   const Outcome ended = watch.wait();
   EXPECT_EQ(ended.status, 130) << ended.err;
@@ -409,10 +410,10 @@ TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
 
 TEST_F(Cli, CtrlCCancelsTheJobOnRequest) {
   start();
-  const std::string job = submit("sleep 30");
+  const std::string job = submit("sleep 600");
   Process watch(command({"watch", job, "--cancel-on-interrupt"}));
   ASSERT_TRUE(becomes(job, "RUNNING"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_TRUE(has_connected(watch));
   watch.signal(SIGINT);
   EXPECT_EQ(watch.wait().status, 130);
   EXPECT_TRUE(becomes(job, "CANCELLED"));
@@ -420,7 +421,7 @@ TEST_F(Cli, CtrlCCancelsTheJobOnRequest) {
 
 TEST_F(Cli, WatchingACancelledJobExitsWith130) {
   start();
-  const std::string job = submit("sleep 30");
+  const std::string job = submit("sleep 600");
   Process watch(command({"watch", job}));
   ASSERT_TRUE(becomes(job, "RUNNING"));
   EXPECT_EQ(client({"cancel", job}).status, 0);

@@ -1,16 +1,20 @@
 // main() of timing tests, which use drives with timeouts of 0.1 s. If the machine stalls during a
 // test, a failure means nothing. The program then prints the delay and runs the tests again. A
-// failure counts only if the machine kept time, or in the third try.
+// failure in the third try counts, even if the machine was late again.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,13 +25,38 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTry = "HYDROPRINT_TEST_TRY";
+constexpr const char* kLate_ms = "HYDROPRINT_TEST_LATE_MS";  // smallest delay of the tries before
 constexpr int kTries = 3;
 // Largest delay of a machine that keeps time; less than the tolerance of any of these tests.
 constexpr double kTolerated_s = 0.02;
 constexpr int kWatchedProcessors = 8;
 constexpr std::chrono::milliseconds kInterval{2};
+constexpr std::chrono::milliseconds kSampleInterval{50};
 
-/// Measures the largest delay of many short sleeps, on up to kWatchedProcessors processors.
+using Waits = std::map<pid_t, double>;
+
+/// Adds the seconds for which each thread of a process and of its descendants has waited for a core
+/// since its start, by thread id. Leaves out threads of lower priority, which compute and may wait.
+/// Adds nothing on kernels that do not show this.
+void add_waits(const std::string& pid, Waits& waits) {
+  std::error_code error;  // threads may end at any time
+  std::filesystem::directory_iterator task("/proc/" + pid + "/task", error);
+  for (; !error && task != std::filesystem::directory_iterator(); task.increment(error)) {
+    const std::filesystem::path folder = task->path();
+    const pid_t thread = std::atoi(folder.filename().c_str());
+    double ran_ns = 0, waited_ns = 0;
+    if (std::ifstream(folder / "schedstat") >> ran_ns >> waited_ns &&
+        ::getpriority(PRIO_PROCESS, static_cast<id_t>(thread)) <= 0) {
+      waits[thread] = waited_ns / 1e9;
+    }
+    std::ifstream children(folder / "children");
+    for (std::string child; children >> child;) add_waits(child, waits);
+  }
+}
+
+/// Measures the largest delay of many short sleeps, on up to kWatchedProcessors processors, and the
+/// longest wait of this process and its descendants for a core. The former also shows that a
+/// virtual machine stalls, the latter that other programs delay the rig or the daemon.
 class DelayMeter {
  public:
   DelayMeter() {
@@ -37,6 +66,7 @@ class DelayMeter {
     for (int cpu = 0; cpu < CPU_SETSIZE && std::ssize(watches_) < kWatchedProcessors; ++cpu) {
       if (CPU_ISSET(cpu, &allowed)) watches_.emplace_back([this, cpu] { watch(cpu); });
     }
+    watches_.emplace_back([this] { watch_waits(); });
   }
   ~DelayMeter() { (void)end(); }
   DelayMeter(const DelayMeter&) = delete;
@@ -59,10 +89,25 @@ class DelayMeter {
     while (!end_) {
       const Clock::time_point due = Clock::now() + kInterval;
       std::this_thread::sleep_until(due);
-      const double late_s = std::chrono::duration<double>(Clock::now() - due).count();
-      double worst_s = worst_s_;
-      while (late_s > worst_s && !worst_s_.compare_exchange_weak(worst_s, late_s)) {
-      }
+      note(std::chrono::duration<double>(Clock::now() - due).count());
+    }
+  }
+
+  void watch_waits() {
+    Waits before;
+    const auto sample = [&] {
+      Waits now;
+      add_waits("self", now);
+      for (const auto& [thread, waited_s] : now) note(waited_s - before[thread]);
+      before = std::move(now);
+    };
+    for (add_waits("self", before); !end_; std::this_thread::sleep_for(kSampleInterval)) sample();
+    sample();
+  }
+
+  void note(double late_s) {
+    double worst_s = worst_s_;
+    while (late_s > worst_s && !worst_s_.compare_exchange_weak(worst_s, late_s)) {
     }
   }
 
@@ -71,9 +116,9 @@ class DelayMeter {
   std::vector<std::thread> watches_;
 };
 
-int tries_before() {
-  const char* const text = std::getenv(kTry);
-  return text == nullptr ? 0 : std::atoi(text);
+int number_in(const char* variable, int otherwise) {
+  const char* const text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::atoi(text);
 }
 
 }  // namespace
@@ -88,12 +133,19 @@ int main(int argc, char** argv) {
   DelayMeter meter;
   const int result = RUN_ALL_TESTS();
   const double late_s = meter.end();
-  const int next = tries_before() + 1;
+  const int next = number_in(kTry, 0) + 1;
   if (result == 0 || late_s < kTolerated_s) return result;
-  std::cout << "The machine was " << 1000 * late_s << " ms late in try " << next << " of " << kTries
+  const int late_ms = static_cast<int>(1000 * late_s);
+  std::cout << "The machine was " << late_ms << " ms late in try " << next << " of " << kTries
             << std::endl;
-  if (next == kTries) return result;
+  const int least_ms = std::min(late_ms, number_in(kLate_ms, late_ms));
+  if (next == kTries) {
+    std::cout << "not measured: the machine was " << least_ms << " ms late in each of " << kTries
+              << " tries" << std::endl;
+    return result;
+  }
   ::setenv(kTry, std::to_string(next).c_str(), 1);
+  ::setenv(kLate_ms, std::to_string(least_ms).c_str(), 1);
   ::execv(argv[0], again.data());
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <signal.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -16,7 +17,8 @@
 namespace hydroprint::testing {
 namespace {
 
-constexpr double kPatience_s = 60;  // long, for busy machines
+constexpr int kPatience_s = 60;     // long, for busy machines
+constexpr int kNotePatience_s = 5;  // in a failed test, the rig may be stopped
 
 std::vector<std::string> command(const VirtualRigOptions& options, const TemporaryFolder& folder) {
   for (const auto& [name, content] : options.files) folder.write(name, content);
@@ -38,11 +40,14 @@ std::vector<std::string> command(const VirtualRigOptions& options, const Tempora
 }
 
 /// Sends text to a socket and returns the whole reply; empty if nothing replies.
-std::string reply_of(const std::string& path, const std::string& text) {
+std::string reply_of(const std::string& path, const std::string& text,
+                     int patience_s = kPatience_s) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path, path.c_str(), path.size());
   const int out = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const timeval limit{patience_s, 0};
+  ::setsockopt(out, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   std::string reply;
   if (::connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
       ::send(out, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size())) {
@@ -70,6 +75,11 @@ std::string VirtualRig::act(const std::string& lines) const {
   const std::string reply = reply_of(control(), lines + "\n");
   if (reply.empty() || reply.starts_with("error")) throw std::runtime_error(lines + ": " + reply);
   return reply;
+}
+
+std::string VirtualRig::note() const {
+  const std::string reply = reply_of(control(), "state\n", kNotePatience_s);
+  return "hydroprint-virtual-rig " + (reply.empty() ? "does not respond\n" : "state: " + reply);
 }
 
 nlohmann::json VirtualRig::truth() const { return nlohmann::json::parse(act("state")); }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/failure_note.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
 
@@ -21,7 +22,8 @@ struct VirtualRigOptions {
   std::vector<std::string> arguments = {};  ///< further arguments of the program
 };
 
-/// hydroprint-virtual-rig on a free loopback port or a pseudo-terminal.
+/// hydroprint-virtual-rig on a free loopback port or a pseudo-terminal. A failed test prints the
+/// drive's true state.
 class VirtualRig {
  public:
   /// Waits until the rig is ready. Throws if it does not start.
@@ -59,10 +61,13 @@ class VirtualRig {
   Ended stop();
 
  private:
+  [[nodiscard]] std::string note() const;
+
   TemporaryFolder folder_;
   std::string profile_;
   Process process_;
   std::string address_;
+  FailureNote note_{[this] { return note(); }};
 };
 
 }  // namespace hydroprint::testing

@@ -26,6 +26,7 @@
 
 #include <sched.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -58,6 +59,13 @@ std::string file_of(const std::string& field) {
 void write_line(const std::string& line) {
   const int fd = std::stoi(flags["--progress-fd"]);
   if (write(fd, line.data(), line.size()) < 0) std::cerr << "the progress pipe is closed\n";
+}
+
+/// Waits until the daemon has read all progress.
+void wait_until_read() {
+  for (int unread_bytes = 1; unread_bytes > 0; usleep(1000)) {
+    if (ioctl(std::stoi(flags["--progress-fd"]), FIONREAD, &unread_bytes) != 0) std::abort();
+  }
 }
 
 void sleep_for(double seconds) {
@@ -166,7 +174,7 @@ void execute(const std::string& line) {
     write_line(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
     write_line(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"
                "\n");
-    usleep(600000);
+    wait_until_read();
   }
 }
 
@@ -203,14 +211,17 @@ void answer(const std::string& head, const std::string& bytes) {
   std::cout << head << ",\"bytes\":" << bytes.size() << "}\n" << bytes << std::flush;
 }
 
-// Answers preview requests. Commands in the mesh: "mute" sends no answer, "rubbish" sends a
-// malformed one, "end" exits.
+// Answers preview requests. Commands in the mesh: "mute" sends no answer, but creates the file
+// `asked` beside the spec, "rubbish" sends a malformed answer, "end" exits.
 void preview() {
   std::stringstream mesh;
   mesh << std::ifstream(file_of("mesh")).rdbuf();
   answer(R"({"vertices":1,"triangles":0,"warnings":[])", std::string(12, 'v'));
   for (std::string line; std::getline(std::cin, line);) {
-    if (mesh.str().find("mute") != std::string::npos) continue;
+    if (mesh.str().find("mute") != std::string::npos) {
+      std::ofstream(std::filesystem::path(flags["--spec"]).replace_filename("asked"));
+      continue;
+    }
     if (mesh.str().find("rubbish") != std::string::npos) std::cout << std::string(300000, '[');
     if (mesh.str().find("end") != std::string::npos) std::_Exit(4);
     answer(line.substr(0, line.size() - 1) +

@@ -134,8 +134,8 @@ TEST_F(Previews, EndWithTheDaemonEvenIfAWorkerIsSilent) {
     v1::Preview out;
     EXPECT_FALSE(preview("mute", out).ok());
   });
-  // Waits long enough for the upload, also in a slow build.
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const auto asked = daemon->state() / "runs" / "preview-1" / "work" / "asked";
+  EXPECT_TRUE(wait_until([&] { return std::filesystem::exists(asked); }, 120));
   EXPECT_EQ(daemon->terminate(), 0);
   waiting.join();
 }

@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/daemon/api/support.h"
 #include "tests/hardware/printer/ipp_printer.h"
@@ -15,6 +13,8 @@ namespace {
 
 using nlohmann::json;
 using printer::IppPrinter;
+
+constexpr double kPatience_s = 120;
 
 class PrintApi : public ::testing::Test {
  protected:
@@ -214,10 +214,10 @@ TEST_F(PrintApi, PrinterOutOfPaperIsReported) {
                          IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = create(print_of(pages()));
-  while (!has(told(job), "media-empty")) {
-    ASSERT_FALSE(finished(client_->job(job.name()))) << told(job);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  const auto is_reported = [&] { return has(told(job), "media-empty"); };
+  const auto is_finished = [&] { return finished(client_->job(job.name())); };
+  EXPECT_TRUE(wait_until([&] { return is_reported() || is_finished(); }, kPatience_s));
+  EXPECT_TRUE(is_reported()) << told(job);
   there.finish();
   EXPECT_EQ(done(job).state(), v1::Job::SUCCEEDED);
 }
@@ -229,9 +229,10 @@ TEST_F(PrintApi, CancelEndsThePrintOnThePrinter) {
   EXPECT_EQ(client_->cancel(job.name()).state(), v1::Job::CANCELLING);
   // This printer completes the page that it is printing before it cancels the job.
   const printer::Printer asked(there.address());
-  while (asked.job(1).value().reasons != std::vector<std::string>{"processing-to-stop-point"}) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+  const auto is_stopping = [&] {
+    return asked.job(1).value().reasons == std::vector<std::string>{"processing-to-stop-point"};
+  };
+  EXPECT_TRUE(wait_until(is_stopping, kPatience_s)) << "the printer was not told to cancel the job";
   there.finish();
   const v1::Job ended = done(job);
   EXPECT_EQ(ended.state(), v1::Job::CANCELLED);

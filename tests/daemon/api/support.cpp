@@ -101,7 +101,7 @@ DaemonProcess::~DaemonProcess() {
               << race_report(pid());
   }
   process_.reset();
-  if (has_ended || ::testing::Test::HasFailure()) std::cerr << log();
+  if (has_ended) std::cerr << end_of_log();
 }
 
 void DaemonProcess::start() {
@@ -136,6 +136,10 @@ int DaemonProcess::terminate() {
 }
 
 std::string DaemonProcess::log() const { return content(folder_ / "err"); }
+
+std::string DaemonProcess::end_of_log() const {
+  return "hydroprintd's log ends with:\n" + testing::last_lines(log(), 40);
+}
 
 std::vector<pid_t> DaemonProcess::workers() const {
   std::vector<pid_t> out;

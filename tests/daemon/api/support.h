@@ -17,6 +17,7 @@
 #include "hydroprint/v1/people_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "tests/support/content.h"
+#include "tests/support/failure_note.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::tests {
@@ -60,7 +61,8 @@ google::rpc::ErrorInfo error_info(const grpc::Status& status);
 /// SHA-256 of bytes, hex.
 std::string hash_of(const std::string& bytes);
 
-/// hydroprintd on a free loopback port, with its state in a folder of the test.
+/// hydroprintd on a free loopback port, with its state in a folder of the test. A failed test
+/// prints the end of its log.
 class DaemonProcess {
  public:
   struct Options {
@@ -102,10 +104,13 @@ class DaemonProcess {
   [[nodiscard]] std::vector<pid_t> workers() const;
 
  private:
+  [[nodiscard]] std::string end_of_log() const;
+
   std::filesystem::path folder_;
   Options options_;
   std::optional<testing::Process> process_;
   std::string address_, http_;
+  testing::FailureNote note_{[this] { return end_of_log(); }};
 };
 
 /// Calls to a daemon. Calls that are expected to succeed throw on failure.

@@ -49,6 +49,16 @@ void HttpLimits::serve(const http::Limits& limits) {
   address_ = "127.0.0.1:" + std::to_string(server->port());
 }
 
+bool HttpLimits::stops_at_once(const std::function<std::vector<HttpConnection>()>& open) {
+  constexpr double kStopPatience_s = 2;  // kStopPatience in server.cpp
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    serve({});
+    const auto clients = open();
+    if (hydroprint::testing::seconds_of([&] { server.reset(); }) < kStopPatience_s) return true;
+  }
+  return false;
+}
+
 std::size_t memory_bytes(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
   std::size_t pages = 0, resident = 0;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "daemon/http/server.h"
 #include "tests/daemon/api/support.h"
@@ -37,6 +39,10 @@ class HttpLimits : public HttpTest, public ::testing::WithParamInterface<bool> {
  protected:
   /// Restarts the server, with TLS if the parameter is true.
   void serve(const http::Limits& limits);
+  /// Whether a new server stops without waiting for the clients that `open` connects. Waiting takes
+  /// at least 2 s every time, so one faster stop is enough, and delays of a busy machine do not
+  /// matter.
+  [[nodiscard]] bool stops_at_once(const std::function<std::vector<HttpConnection>()>& open);
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] HttpConnection connect(int receive_buffer_bytes = 0) const {
     return HttpConnection(address_, receive_buffer_bytes, GetParam() ? authority.pem() : "");

@@ -1,6 +1,5 @@
 // Limits on clients: the HTTP server with short timeouts and small sizes, connected to a daemon.
 #include <chrono>
-#include <thread>
 
 #include "tests/daemon/http/http_support.h"
 
@@ -11,16 +10,24 @@ using http::Limits;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kShort{200};
+constexpr double kPatience_s = 120;
+
+/// Whether the server has no other connection.
+bool is_alone(HttpConnection& connection) {
+  return connection.ask("GET", "/metrics").body.find("http_connections 1\n") != std::string::npos;
+}
 
 INSTANTIATE_TEST_SUITE_P(Over, HttpLimits, ::testing::Bool(),
                          [](const auto& test) { return test.param ? "Tls" : "Tcp"; });
 
 TEST_P(HttpLimits, SilentClientIsDisconnected) {
-  Limits limits;
-  limits.header_time = kShort;
-  limits.idle_time = kShort;
-  serve(limits);
+  Limits impatient_at_first;
+  impatient_at_first.header_time = kShort;
+  serve(impatient_at_first);
   EXPECT_TRUE(connect().is_ended());
+  Limits impatient_when_idle;  // with time for the first request, also on a busy machine
+  impatient_when_idle.idle_time = kShort;
+  serve(impatient_when_idle);
   HttpConnection idle = connect();
   EXPECT_EQ(idle.ask("GET", "/v1/queue").status, 200);
   EXPECT_TRUE(idle.is_ended());
@@ -66,13 +73,8 @@ TEST_P(HttpLimits, ConnectionsAreLimited) {
   EXPECT_TRUE(more.is_ended());
   open.pop_back();
   more.close();
-  int status = 503;
-  for (int i = 0; i < 1000 && status == 503; ++i) {
-    HttpConnection next = connect();
-    next.send(request_text("GET", "/v1/queue"));
-    status = next.read_answer().status;
-  }
-  EXPECT_EQ(status, 200);
+  const auto is_served = [&] { return connect().ask("GET", "/v1/queue").status == 200; };
+  EXPECT_TRUE(wait_until(is_served, kPatience_s));
 }
 
 TEST_P(HttpLimits, QuietStreamSendsPings) {
@@ -100,12 +102,12 @@ TEST_P(HttpLimits, ClientThatDoesNotReadIsDisconnectedAndMayReturn) {
   nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", upload("")}}}}}};
   for (int i = 0; i < 32; ++i) job["labels"][std::to_string(i)] = std::string(200, 'x');
   HttpConnection other = connect();
-  bool is_let_go = false;
-  for (int i = 0; i < 3000 && !is_let_go; ++i) {
-    EXPECT_EQ(other.ask("POST", "/v1/jobs", job.dump()).status, 200);
-    is_let_go = other.ask("GET", "/metrics").body.find("http_connections 1\n") != std::string::npos;
-  }
-  EXPECT_TRUE(is_let_go);
+  const auto is_let_go = [&] {
+    const int status = other.ask("POST", "/v1/jobs", job.dump()).status;
+    EXPECT_EQ(status, 200);
+    return status != 200 || is_alone(other);
+  };
+  EXPECT_TRUE(wait_until(is_let_go, kPatience_s, 0));
   HttpConnection back = connect();
   back.send(request_text("GET", "/v1/events:watch?topics=job", "",
                          "Last-Event-ID: " + begin.id + "\r\n"));
@@ -114,9 +116,10 @@ TEST_P(HttpLimits, ClientThatDoesNotReadIsDisconnectedAndMayReturn) {
   EXPECT_EQ(back.read_event().kind, "job");
 }
 
+// The call would otherwise last as long as the job, which is longer than the test's patience.
 TEST_P(HttpLimits, DisconnectCancelsTheCall) {
   serve({});
-  const std::string name = simulate("sleep 30");
+  const std::string name = simulate("sleep 600");
   {
     HttpConnection stream = connect();
     stream.send(request_text("GET", "/v1/" + name + ":watch"));
@@ -124,25 +127,20 @@ TEST_P(HttpLimits, DisconnectCancelsTheCall) {
     stream.read_event();
   }
   HttpConnection connection = connect();
-  std::string metrics;
-  for (int i = 0; i < 1000 && metrics.find("http_connections 1\n") == std::string::npos; ++i) {
-    metrics = connection.ask("GET", "/metrics").body;
-  }
-  EXPECT_NE(metrics.find("http_connections 1\n"), std::string::npos) << metrics;
+  EXPECT_TRUE(wait_until([&] { return is_alone(connection); }, kPatience_s));
 }
 
 TEST_P(HttpLimits, ServerStopsWithOpenConnections) {
-  serve({});
-  std::vector<HttpConnection> open;
-  for (int i = 0; i < 30; ++i) open.push_back(connect());
-  for (int i = 0; i < 10; ++i) {
-    open[i].send(request_text("GET", "/v1/events:watch"));
-    open[i].read_head();
-    open[10 + i].send("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{");
-  }
-  const auto begin = std::chrono::steady_clock::now();
-  server.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_TRUE(stops_at_once([this] {
+    std::vector<HttpConnection> open;
+    for (int i = 0; i < 30; ++i) open.push_back(connect());
+    for (int i = 0; i < 10; ++i) {
+      open[i].send(request_text("GET", "/v1/events:watch"));
+      open[i].read_head();
+      open[10 + i].send("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{");
+    }
+    return open;
+  }));
 }
 
 TEST_P(HttpLimits, MissingServiceIsReported) {

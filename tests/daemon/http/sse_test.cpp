@@ -1,7 +1,4 @@
 // Streams over HTTP, as EventSource sees them, through the daemon.
-#include <chrono>
-#include <thread>
-
 #include "tests/daemon/http/http_support.h"
 
 namespace hydroprint::tests {
@@ -150,20 +147,25 @@ TEST_F(HttpEvents, ShutdownEndsTheStreamAndTheNextDaemonResumesIt) {
 TEST_F(HttpEvents, DisconnectFreesTheSlot) {
   for (int round = 0; round < 3; ++round) {
     std::vector<HttpConnection> streams;
+    // At most 128 streams may be open, so a hundred need the slots of the hundred before. The
+    // server's threads check twice a second for closed streams.
+    const auto is_open = [&] {
+      HttpConnection& stream = streams.emplace_back(daemon.http());
+      stream.send(request_text("GET", "/v1/events:watch?topics=job"));
+      if (stream.read_head().status == 200) return true;
+      streams.pop_back();
+      return false;
+    };
     for (int i = 0; i < 100; ++i) {
-      streams.push_back(watch("/v1/events:watch?topics=job"));
+      ASSERT_TRUE(wait_until(is_open, 60, 0.05)) << "round " << round << ", stream " << i;
       EXPECT_EQ(streams.back().read_event().kind, "begin");
     }
     EXPECT_EQ(get("/v1/queue").status, 200);
     streams.clear();
-    // At most 128 streams may be open, so the next hundred need the slots of these.
-    std::string metrics;
-    for (int i = 0;
-         i < 1000 && metrics.find("hydroprint_http_connections 1\n") == std::string::npos; ++i) {
-      metrics = get("/metrics").body;
-    }
-    // The server's threads check twice a second for closed streams.
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    const auto has_closed = [&] {
+      return get("/metrics").body.find("hydroprint_http_connections 1\n") != std::string::npos;
+    };
+    EXPECT_TRUE(wait_until(has_closed, 60));
   }
 }
 

@@ -3,12 +3,10 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include "sim/image/io/image_file.h"
 #include "sim/ink/ink_of.h"
@@ -266,11 +264,11 @@ TEST_F(FitWorker, SigtermCancelsAndLeavesNothing) {
   testing::ProcessOptions options;
   options.files = {{5, folder.path() / "progress"}};
   testing::Process process(fit({"--progress-fd", "5"}), options);
-  while (content(folder.path() / "progress").find("\"fit\"") == std::string::npos &&
-         process.running()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  ASSERT_TRUE(process.running());
+  const auto has_begun = [&] {
+    return content(folder.path() / "progress").find("\"fit\"") != std::string::npos;
+  };
+  ASSERT_TRUE(testing::wait_until([&] { return has_begun() || !process.running(); }, 300));
+  ASSERT_TRUE(process.running()) << process.wait().err;
   process.signal(SIGTERM);
   const Ended ended = process.wait();
   EXPECT_EQ(ended.status, 130) << ended.err;

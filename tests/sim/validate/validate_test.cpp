@@ -4,7 +4,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -13,12 +12,12 @@
 #include <regex>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "sim/image/io/image_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
+#include "tests/support/timing.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -263,7 +262,14 @@ TEST_F(QuickReport, IsReplacedByTheNextRunWithTheRequestedExperiments) {
 
 TEST_F(Validate, LeavesNothingWhenItIsCancelled) {
   testing::Process process({kWorker, "validate", "--quick", "--out", out()});
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const auto has_written = [&] {
+    for (const std::string& name : names_in(folder.path())) {
+      if (!names_in(folder.path() / name).empty()) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(testing::wait_until(has_written, 300));
+  ASSERT_TRUE(process.running());
   process.signal(SIGTERM);
   const Ended ended = process.wait();
   EXPECT_EQ(ended.status, 130) << ended.err;

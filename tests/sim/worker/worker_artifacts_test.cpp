@@ -147,9 +147,6 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
       << "the wetted share of a sphere equals the immersed share of its height";
   EXPECT_GE(report["stretch"]["max"], report["stretch"]["p95"]);
   EXPECT_GE(report["stretch"]["p95"], report["stretch"]["p50"]);
-  double seconds = 0;
-  for (const auto& [stage, value] : report["stage_seconds"].items()) seconds += value.get<double>();
-  EXPECT_NEAR(seconds, report["total_seconds"].get<double>(), 0.05);
   for (const auto& warning : report["warnings"]) {
     EXPECT_TRUE(warning.contains("code") && warning.contains("message") &&
                 warning.contains("where"));
@@ -157,6 +154,20 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   const auto summary = nlohmann::json::parse(ended.out);
   EXPECT_EQ(summary["out"], out());
   EXPECT_EQ(summary["coverage"], report["coverage"]);
+}
+
+// The clock also runs between the last stage and the total. A busy machine may interrupt the
+// program there, so the best of several runs counts; a missing stage would be missing in each.
+TEST_F(Worker, StageTimesAddUpToTheTotal) {
+  double rest_s = HUGE_VAL;
+  for (int run = 0; run < 10 && rest_s > 0.05; ++run) {
+    ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
+    const auto report = nlohmann::json::parse(content(out() + "/report.json"));
+    rest_s = report["total_seconds"].get<double>();
+    for (const auto& stage : report["stage_seconds"]) rest_s -= stage.get<double>();
+    EXPECT_GE(rest_s, -1e-6) << "stages do not overlap";
+  }
+  EXPECT_LE(rest_s, 0.05);
 }
 
 TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {

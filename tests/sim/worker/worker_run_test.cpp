@@ -7,11 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <thread>
 
 #include "tests/sim/worker/bodies.h"
 #include "tests/sim/worker/worker_fixture.h"
@@ -72,7 +70,8 @@ TEST_F(Worker, AClosedStdoutIsHarmless) {
   EXPECT_EQ(report["verb"], "simulate") << "the summary must not be written into an artifact";
 }
 
-/// A long run that was started and has reported progress.
+/// A run that was started and has reported progress. It takes half a minute of processor time if it
+/// is not cancelled, so a busy machine cannot miss it.
 class LongRun : public Worker {
  protected:
   void start() {
@@ -80,13 +79,14 @@ class LongRun : public Worker {
     ProcessOptions options;
     options.files = {{5, folder.path() / "progress"}};
     process.emplace(simulate({"--mesh", path("big.obj"), "--film", "A4", "--progress-fd", "5",
-                              "--texture", path("texture.png")},
+                              "--texture", path("texture.png"), "--ink-passes", "10"},
                              false),
                     options);
-    while (content(path("progress")).find("velocity") == std::string::npos && process->running()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ASSERT_TRUE(process->running());
+    const auto has_begun = [&] {
+      return content(path("progress")).find("velocity") != std::string::npos;
+    };
+    ASSERT_TRUE(testing::wait_until([&] { return has_begun() || !process->running(); }, 300));
+    ASSERT_TRUE(process->running()) << process->wait().err;
   }
 
   std::optional<Process> process;
