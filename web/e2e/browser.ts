@@ -1,9 +1,10 @@
 /** Starts Debian's Chromium and opens browser contexts for users in it. */
+import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
 
 export const launch = (): Promise<Browser> =>
   chromium.launch({
-    executablePath: '/usr/bin/chromium',
+    executablePath: fileURLToPath(new URL('chromium', import.meta.url)),
     args: [
       '--no-sandbox',
       '--use-gl=angle',

@@ -2,6 +2,7 @@
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
+import type { Page } from 'playwright-core';
 import { expect } from 'vitest';
 import type { Person } from './browser';
 import { root } from './daemon';
@@ -49,6 +50,13 @@ function covered(): string {
   const isCovered = isBelow && last !== undefined && last.getBoundingClientRect().bottom > bar.top;
   window.scrollTo(0, before);
   return isCovered ? last.outerHTML.slice(0, 120) : '';
+}
+
+/** Saves a screenshot of a page after a failure and returns its path. */
+export async function saveFailure(page: Page, name: string): Promise<string> {
+  const path = join(kScreens, `failed-${name.replace(/[^a-z0-9]+/gi, '-')}.png`);
+  await page.screenshot({ path, timeout: 10_000 });
+  return path;
 }
 
 /** Expects no serious or critical violations from axe, in light and dark colours. */

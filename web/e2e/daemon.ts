@@ -1,6 +1,6 @@
 /** Starts the real programs as a user would: hydroprintd with a virtual rig, its own state folder and free ports. */
 import { spawn, type ChildProcess } from 'node:child_process';
-import { mkdtempSync, openSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, openSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -70,7 +70,7 @@ export class Daemon {
         ...['--rig', this.rigAddress],
         ...['--rig-profile', join(root, 'hardware/profiles/virtual.toml')],
       ],
-      join(this.folder, 'hydroprintd.log'),
+      this.log,
     );
     this.daemon = process;
     this.http = ready.get('http')!.replace(/^https?:\/\//, '');
@@ -83,12 +83,21 @@ export class Daemon {
     rmSync(this.folder, { recursive: true, force: true });
   }
 
+  /** Returns the last lines of the daemon's log. */
+  logEnd(lines: number): string {
+    return readFileSync(this.log, 'utf8').trimEnd().split('\n').slice(-lines).join('\n');
+  }
+
   /** Sends a command to the virtual rig's control socket, such as "camera gone" or "clear". */
   async act(line: string): Promise<void> {
     const socket = connect(this.control);
     socket.end(`${line}\n`);
     const said = (await socket.toArray()).join('');
     if (!said.startsWith('ok')) throw new Error(`the rig answered "${said}" to "${line}"`);
+  }
+
+  private get log(): string {
+    return join(this.folder, 'hydroprintd.log');
   }
 
   private get control(): string {

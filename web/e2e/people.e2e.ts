@@ -1,20 +1,12 @@
 /** Accounts and permissions: the first admin, other users, and a viewer who can only stop the rig. */
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { launch, open, visit } from './browser';
+import type { Page } from 'playwright-core';
+import { expect, test } from 'vitest';
 import { kPassword, signIn } from './accounts';
+import { open, visit } from './browser';
 import { look } from './checks';
-import { Daemon } from './daemon';
+import { rareTest, usePlace } from './place';
 
-let daemon: Daemon;
-let browser: Browser;
-beforeAll(async () => {
-  [daemon, browser] = await Promise.all([Daemon.start(), launch()]);
-});
-afterAll(async () => {
-  await browser?.close();
-  await daemon?.stop();
-});
+const there = usePlace();
 
 const press = (page: Page, name: string | RegExp) =>
   page.getByRole('button', { name, exact: typeof name === 'string' }).click();
@@ -72,7 +64,7 @@ const changingRoutes = (page: Page): Promise<[string, string][]> =>
   }, kOwn);
 
 test('the first screen is small and shows the first step', async () => {
-  const person = await visit(browser, 'about:blank');
+  const person = await visit(there.browser, 'about:blank');
   const sizes: number[] = [];
   person.page.on('requestfinished', (request) => {
     request.sizes().then(
@@ -81,7 +73,7 @@ test('the first screen is small and shows the first step', async () => {
     );
   });
   const begun = Date.now();
-  await person.page.goto(daemon.address);
+  await person.page.goto(there.daemon.address);
   await person.page.getByRole('button', { name: 'Choose files' }).waitFor();
   const took_ms = Date.now() - begun;
   await person.page.waitForLoadState('load');
@@ -90,11 +82,10 @@ test('the first screen is small and shows the first step', async () => {
   expect(total).toBeGreaterThan(1000);
   console.log(`first screen: ${Math.round(total / 1000)} kB, ${took_ms} ms`);
   expect(person.complaints).toEqual([]);
-  await person.context.close();
 });
 
-test('every control can be reached by keyboard, with a visible focus', async () => {
-  const person = await visit(browser, daemon.address);
+rareTest('every control can be reached by keyboard, with a visible focus', async () => {
+  const person = await visit(there.browser, there.daemon.address);
   const { page } = person;
   await page.getByRole('button', { name: 'Mug' }).waitFor();
   // The focused element, and whether the focus is visible.
@@ -166,11 +157,10 @@ test('every control can be reached by keyboard, with a visible focus', async () 
   await page.locator('.big', { hasText: 'Disarmed' }).waitFor({ timeout: 30_000 });
   await page.getByRole('button', { name: 'Release the rig' }).click();
   expect(person.complaints).toEqual([]);
-  await person.context.close();
 });
 
 test('the first admin adds users; a viewer can stop the rig and change nothing else', async () => {
-  const admin = await visit(browser, `${daemon.address}/#/people`);
+  const admin = await visit(there.browser, `${there.daemon.address}/#/people`);
   const { page } = admin;
   await page.getByText('There are no users yet').waitFor();
   await look(admin, 'people-first');
@@ -202,14 +192,14 @@ test('the first admin adds users; a viewer can stop the rig and change nothing e
   const address = await page.locator('.once code').innerText();
   await look(admin, 'people-users');
 
-  const maker = await visit(browser, address);
+  const maker = await visit(there.browser, address);
   await maker.page.getByText('mia', { exact: true }).waitFor();
   expect(maker.page.url()).not.toContain(address.split('#')[1]!);
-  const again = await visit(browser, address);
+  const again = await visit(there.browser, address);
   await again.page.getByRole('heading', { name: 'Sign in' }).waitFor();
   await again.page.getByText('A sign-in link works once').waitFor();
 
-  const viewer = await visit(browser, daemon.address, 390);
+  const viewer = await visit(there.browser, there.daemon.address, 390);
   await signIn(viewer.page, 'vera');
   await viewer.page.getByText('You can view this page but not submit jobs').waitFor();
   await open(viewer, '/rig');

@@ -1,26 +1,17 @@
 /** Control of the rig, and a complete dip. */
 import { mkdtempSync } from 'node:fs';
 import { join } from 'node:path';
-import type { Browser, Page } from 'playwright-core';
-import { afterAll, beforeAll, expect, test } from 'vitest';
-import { launch, open } from './browser';
-import { addPeople, come, type Place } from './accounts';
+import type { Page } from 'playwright-core';
+import { beforeEach, expect, test } from 'vitest';
+import { addPeople, asAdmin, come } from './accounts';
+import { open } from './browser';
 import { look, picture } from './checks';
-import { Daemon } from './daemon';
 import { makeBall } from './models';
+import { rareTest, usePlace } from './place';
+import { restRig } from './rig_at_rest';
 
-let daemon: Daemon;
-let browser: Browser;
-let there: Place;
-beforeAll(async () => {
-  [daemon, browser] = await Promise.all([Daemon.start(), launch()]);
-  await addPeople(daemon.address);
-  there = { browser, address: daemon.address };
-});
-afterAll(async () => {
-  await browser?.close();
-  await daemon?.stop();
-});
+const there = usePlace(({ daemon }) => addPeople(daemon.address));
+beforeEach(() => restRig(there.daemon));
 
 const press = (page: Page, name: string | RegExp) =>
   page.getByRole('button', { name, exact: typeof name === 'string' }).click({ timeout: 60_000 });
@@ -31,14 +22,11 @@ async function becomesReady(page: Page): Promise<void> {
   await page.locator('.big', { hasText: 'Ready' }).waitFor({ timeout: 60_000 });
 }
 
-/** Takes the rig, and arms and homes it if needed. */
+/** Takes the rig, arms and homes it. */
 async function takeReady(page: Page): Promise<void> {
   await press(page, 'Take control');
-  await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
-  if ((await page.locator('.big').innerText()) === 'Disarmed') {
-    await press(page, 'Arm');
-    await press(page, 'Home');
-  }
+  await press(page, 'Arm');
+  await press(page, 'Home');
   await becomesReady(page);
 }
 
@@ -58,10 +46,7 @@ test('the rig is taken, armed, homed, moved and jogged, and stopped from another
 
   const other = await come(there, 'mia', 'rig', 390);
   await page.getByLabel('Purpose').fill('<b>the mug</b>');
-  await press(page, 'Take control');
-  await press(page, 'Arm');
-  await press(page, 'Home');
-  await becomesReady(page);
+  await takeReady(page);
   // Untrusted text is not interpreted as HTML.
   await other.page.getByText('<b>the mug</b>').waitFor();
   expect(await other.page.getByRole('button', { name: 'Move', exact: true }).count()).toBe(0);
@@ -99,8 +84,6 @@ test('the rig is taken, armed, homed, moved and jogged, and stopped from another
   await press(page, 'Release the rig');
   await page.getByRole('heading', { name: 'Take control' }).waitFor();
   expect(operator.complaints.concat(other.complaints)).toEqual([]);
-  await other.context.close();
-  await operator.context.close();
 });
 
 test('a number out of range stays as typed, and nothing moves', async () => {
@@ -146,54 +129,99 @@ test('a number out of range stays as typed, and nothing moves', async () => {
   await press(page, 'Move');
   await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBe(30.25);
   await becomesReady(page);
-  await press(page, 'Release the rig');
   expect(person.complaints).toEqual([]);
-  await person.context.close();
 });
 
-test('the depth camera is shown live to every user, and a missing picture is reported', async () => {
-  const person = await come(there, 'vera', 'rig');
+test('a number typed before the first paint is kept', async () => {
+  const person = await come(there, 'otto', 'rig');
   const { page } = person;
-  let asked = 0;
-  page.on('request', (request) => (asked += request.url().includes('depthPicture') ? 1 : 0));
-  const shown = page.getByRole('img', { name: /^Depth over the vat at .* mm from the camera/ });
-  await shown.waitFor({ timeout: 60_000 });
-  // The picture uses both ends of viridis: violet and yellow.
-  const colours = await shown.evaluate((canvas: HTMLCanvasElement) => {
-    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
-    const found = { violet: 0, yellow: 0 };
-    for (let i = 0; i < data.length; i += 4) {
-      const [r, g, b] = [data[i]!, data[i + 1]!, data[i + 2]!];
-      if (b > 2 * g) found.violet += 1;
-      if (g > 2 * b && r > 2 * b) found.yellow += 1;
-    }
-    return found;
+  await takeReady(page);
+  await open(person, '/');
+  await page.getByRole('button', { name: 'Choose files' }).waitFor();
+  // Types when the field is added, before the browser paints it.
+  await page.evaluate(() => {
+    new MutationObserver((_, observer) => {
+      const label = [...document.querySelectorAll('label')].find(
+        ({ textContent }) => textContent === 'Move to',
+      );
+      const field = label?.control as HTMLInputElement | null | undefined;
+      if (!field) return;
+      observer.disconnect();
+      field.focus();
+      field.value = '30';
+      field.dispatchEvent(new InputEvent('input', { bubbles: true }));
+    }).observe(document.body, { childList: true, subtree: true });
   });
-  expect(colours.violet).toBeGreaterThan(100);
-  expect(colours.yellow).toBeGreaterThan(100);
-  const first = await shown.getAttribute('aria-label');
-  await expect.poll(() => shown.getAttribute('aria-label'), { timeout: 20_000 }).not.toBe(first);
-  await look(person, 'rig-depth');
-
-  await daemon.act('camera gone');
-  await page.getByText(/No picture since .*plug/).waitFor({ timeout: 30_000 });
-  await look(person, 'rig-depth-gone');
-  await daemon.act('clear');
-  await page.getByText('No picture since').waitFor({ state: 'hidden', timeout: 30_000 });
-
-  await open(person, '/jobs');
-  await page.getByRole('heading', { name: 'Jobs' }).waitFor();
-  const before = asked;
-  await page.waitForTimeout(2500);
-  expect(asked, 'requests after leaving the screen').toBe(before);
+  await open(person, '/rig');
+  await page.getByRole('button', { name: 'Move', exact: true, disabled: false }).waitFor();
+  await page.waitForTimeout(200);
+  expect(await page.getByLabel('Move to').inputValue()).toBe('30');
   expect(person.complaints).toEqual([]);
-  await person.context.close();
 });
+
+test('the commands stay while the rig is ours, and end with the lease', async () => {
+  const person = await come(there, 'otto', 'rig');
+  const { page } = person;
+  // A state from before the lease was taken arrives after it.
+  const before = await (await page.request.get(`${there.daemon.address}/v1/rig`)).text();
+  await page.route('**/v1/rig', (route) => route.fulfill({ body: before }), { times: 1 });
+  await press(page, 'Take control');
+  await page.getByRole('heading', { name: 'You control the rig' }).waitFor();
+  await press(page, 'Arm');
+  await page.getByRole('button', { name: 'Home' }).waitFor();
+  const admin = await asAdmin(there.daemon.address);
+  await admin('POST', 'rig/lease:break', { reason: 'the rig is needed' });
+  await page.getByText('Your lease of the rig has ended').waitFor();
+  await page.getByRole('button', { name: 'Take control' }).waitFor();
+  expect(await page.getByRole('button', { name: 'Home' }).count()).toBe(0);
+  expect(person.complaints).toEqual([]);
+});
+
+rareTest(
+  'the depth camera is shown live to every user, and a missing picture is reported',
+  async () => {
+    const person = await come(there, 'vera', 'rig');
+    const { page } = person;
+    let asked = 0;
+    page.on('request', (request) => (asked += request.url().includes('depthPicture') ? 1 : 0));
+    const shown = page.getByRole('img', { name: /^Depth over the vat at .* mm from the camera/ });
+    await shown.waitFor({ timeout: 60_000 });
+    // The picture uses both ends of viridis: violet and yellow.
+    const colours = await shown.evaluate((canvas: HTMLCanvasElement) => {
+      const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+      const found = { violet: 0, yellow: 0 };
+      for (let i = 0; i < data.length; i += 4) {
+        const [r, g, b] = [data[i]!, data[i + 1]!, data[i + 2]!];
+        if (b > 2 * g) found.violet += 1;
+        if (g > 2 * b && r > 2 * b) found.yellow += 1;
+      }
+      return found;
+    });
+    expect(colours.violet).toBeGreaterThan(100);
+    expect(colours.yellow).toBeGreaterThan(100);
+    const first = await shown.getAttribute('aria-label');
+    await expect.poll(() => shown.getAttribute('aria-label'), { timeout: 20_000 }).not.toBe(first);
+    await look(person, 'rig-depth');
+
+    await there.daemon.act('camera gone');
+    await page.getByText(/No picture since .*plug/).waitFor({ timeout: 30_000 });
+    await look(person, 'rig-depth-gone');
+    await there.daemon.act('clear');
+    await page.getByText('No picture since').waitFor({ state: 'hidden', timeout: 30_000 });
+
+    await open(person, '/jobs');
+    await page.getByRole('heading', { name: 'Jobs' }).waitFor();
+    const before = asked;
+    await page.waitForTimeout(2500);
+    expect(asked, 'requests after leaving the screen').toBe(before);
+    expect(person.complaints).toEqual([]);
+  },
+);
 
 test('a dip is guided step by step with one large button', async () => {
   const person = await come(there, 'otto');
   const { page } = person;
-  const { obj, mtl, png } = makeBall(mkdtempSync(join(daemon.folder, 'model-')));
+  const { obj, mtl, png } = makeBall(mkdtempSync(join(there.daemon.folder, 'model-')));
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await page.getByLabel('Longest side').fill('30');
   await page.getByText('More settings').click();
@@ -251,5 +279,4 @@ test('a dip is guided step by step with one large button', async () => {
   await page.getByRole('link', { name: 'positions.csv' }).waitFor();
   await look(person, 'job-dip');
   expect(person.complaints).toEqual([]);
-  await person.context.close();
 });

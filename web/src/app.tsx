@@ -1,5 +1,5 @@
 import type { ComponentChildren } from 'preact';
-import { useEffect } from 'preact/hooks';
+import { useLayoutEffect } from 'preact/hooks';
 import { link } from './events';
 import { route } from './route';
 import { JobScreen } from './screens/job';
@@ -126,7 +126,7 @@ function StopButton() {
 }
 
 function useEscapeToStop(): void {
-  useEffect(() => {
+  useLayoutEffect(() => {
     const take = (event: KeyboardEvent) => {
       if (event.key === 'Escape' && isMoving.value && may('VIEWER')) void stop();
     };

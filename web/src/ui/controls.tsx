@@ -1,6 +1,6 @@
 /** Controls shared by all screens. */
 import type { ComponentChildren, JSX } from 'preact';
-import { useEffect, useId, useRef, useState } from 'preact/hooks';
+import { useEffect, useId, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { cutToBytes } from '../model/limits';
 import { done, type Result } from '../model/result';
 import { parseNumber, readNumber } from '../model/units';
@@ -122,7 +122,8 @@ export function NumberField(props: {
     lastValue.current = props.value;
     setTyped(undefined);
   };
-  useEffect(follow, [props.value]);
+  // A layout effect runs before anything can be typed; after the first paint, it would remove what was typed before.
+  useLayoutEffect(follow, [props.value]);
   const nudge = (event: KeyboardEvent) => {
     const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     const from = text.trim() === '' ? 0 : parseNumber(text);

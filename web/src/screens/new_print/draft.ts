@@ -77,10 +77,13 @@ export const longest_mm = computed(() =>
 
 const kDraftKey = 'new-print';
 
-/** Restores the stored draft, then stores every change. */
+/** Restores the stored draft, then stores every change. Fields that were changed before it was read stay changed. */
 export async function restore(): Promise<void> {
   const kept = await load<Draft>(kDraftKey);
-  if (kept) draft.value = { ...kEmpty, ...kept };
+  const changed = Object.entries(draft.value).filter(
+    ([key, value]) => value !== kEmpty[key as keyof Draft],
+  );
+  if (kept) draft.value = { ...kEmpty, ...kept, ...Object.fromEntries(changed) };
   let timer = 0;
   effect(() => {
     const value = draft.value;

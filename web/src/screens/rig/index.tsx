@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
 import { rig as api } from '../../api/services';
-import type { Rig } from '../../api/types';
+import type { Lease, Rig } from '../../api/types';
 import { formatSeconds } from '../../model/units';
 import { route } from '../../route';
 import {
@@ -9,7 +9,6 @@ import {
   command,
   isMoving,
   isOurs,
-  leaseId,
   refreshRig,
   releaseLease,
   rig,
@@ -105,11 +104,7 @@ function Standing({ now }: { now: Rig }) {
 }
 
 /** The lease: its holder, and buttons to take, release or break it. */
-function LeasePanel({ now }: { now: Rig }) {
-  const [purpose, setPurpose] = useState('');
-  const [reason, setReason] = useState('');
-  const { lease } = now;
-  const left = secondsUntil(lease?.expireTime);
+function LeasePanel({ now: { lease } }: { now: Rig }) {
   if (!may('OPERATOR'))
     return (
       <section>
@@ -120,65 +115,85 @@ function LeasePanel({ now }: { now: Rig }) {
         </p>
       </section>
     );
-  if (!lease)
-    return (
-      <section>
-        <h2>Take control</h2>
-        <p class="quiet">
-          One person at a time can control the rig. You keep control while this page is open.
-        </p>
-        <TextField
-          label="Purpose"
-          value={purpose}
-          onValue={setPurpose}
-          placeholder="the mug"
-          maxBytes={rules.AcquireLeaseRequest.purpose.maxBytes}
-        />
-        <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
-          Take control
-        </Button>
-      </section>
-    );
+  if (isOurs.value) return <OwnLease lease={lease} />;
+  return lease ? <OthersLease lease={lease} /> : <FreeLease />;
+}
+
+function FreeLease() {
+  const [purpose, setPurpose] = useState('');
   return (
     <section>
-      <h2>{leaseId.value ? 'You control the rig' : `${lease.holder} controls the rig`}</h2>
-      <p>
-        {lease.purpose}
-        {left !== undefined && (
-          <span class="quiet">
-            {left > 0 ? `, ${formatSeconds(left)} left` : ', just expired'}
-            {leaseId.value ? ' (renewed automatically)' : ''}
-          </span>
-        )}
+      <h2>Take control</h2>
+      <p class="quiet">
+        One person at a time can control the rig. You keep control while this page is open.
       </p>
-      {leaseId.value ? (
-        <Button onPress={releaseLease}>Release the rig</Button>
-      ) : (
-        <>
-          {lease.holder === me.value && (
-            <p class="quiet">You hold the lease in another browser or program.</p>
-          )}
-          {may('ADMIN') && (
-            <details>
-              <summary>Break the lease of {lease.holder}</summary>
-              <TextField
-                label="Reason (for the audit log)"
-                value={reason}
-                onValue={setReason}
-                maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
-              />
-              <ConfirmButton
-                sure={`Confirm: break the lease of ${lease.holder}`}
-                kind="danger"
-                onPress={() => breakLease(reason.trim() || 'no reason given')}
-              >
-                Break the lease
-              </ConfirmButton>
-            </details>
-          )}
-        </>
+      <TextField
+        label="Purpose"
+        value={purpose}
+        onValue={setPurpose}
+        placeholder="the mug"
+        maxBytes={rules.AcquireLeaseRequest.purpose.maxBytes}
+      />
+      <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
+        Take control
+      </Button>
+    </section>
+  );
+}
+
+/** `lease` is not set until a state of the rig contains the lease. */
+const OwnLease = ({ lease }: { lease: Lease | undefined }) => (
+  <section>
+    <h2>You control the rig</h2>
+    {lease && <Purpose lease={lease} note=" (renewed automatically)" />}
+    <Button onPress={releaseLease}>Release the rig</Button>
+  </section>
+);
+
+function OthersLease({ lease }: { lease: Lease }) {
+  const [reason, setReason] = useState('');
+  return (
+    <section>
+      <h2>{lease.holder} controls the rig</h2>
+      <Purpose lease={lease} />
+      {lease.holder === me.value && (
+        <p class="quiet">You hold the lease in another browser or program.</p>
+      )}
+      {may('ADMIN') && (
+        <details>
+          <summary>Break the lease of {lease.holder}</summary>
+          <TextField
+            label="Reason (for the audit log)"
+            value={reason}
+            onValue={setReason}
+            maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
+          />
+          <ConfirmButton
+            sure={`Confirm: break the lease of ${lease.holder}`}
+            kind="danger"
+            onPress={() => breakLease(reason.trim() || 'no reason given')}
+          >
+            Break the lease
+          </ConfirmButton>
+        </details>
       )}
     </section>
+  );
+}
+
+/** The purpose of the lease and its remaining time. */
+function Purpose({ lease, note = '' }: { lease: Lease; note?: string }) {
+  const left = secondsUntil(lease.expireTime);
+  return (
+    <p>
+      {lease.purpose}
+      {left !== undefined && (
+        <span class="quiet">
+          {left > 0 ? `, ${formatSeconds(left)} left` : ', just expired'}
+          {note}
+        </span>
+      )}
+    </p>
   );
 }
 

@@ -1,7 +1,6 @@
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { rig as api } from '../../api/services';
-import { complain } from '../../state/notices';
-import { leaseId, rig } from '../../state/rig';
+import { command } from '../../state/rig';
 import { Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 
@@ -20,14 +19,9 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   const tell = async () => {
     if (held.current === 0 || isSending.current) return;
     isSending.current = true;
-    const answer = await api.jog(leaseId.value, held.current * Number(speedNow.current));
+    const isDone = await command((id) => api.jog(id, held.current * Number(speedNow.current)));
     isSending.current = false;
-    if (answer.ok) {
-      rig.value = answer.value;
-    } else {
-      held.current = 0;
-      complain(answer.failure);
-    }
+    if (!isDone) held.current = 0;
   };
   const endJog = () => {
     if (held.current === 0) return;
@@ -40,7 +34,8 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
     void tell();
   };
 
-  useEffect(() => {
+  // A layout effect listens before a button can be pressed; after the first paint, a release could be missed.
+  useLayoutEffect(() => {
     const timer = window.setInterval(() => void tell(), kEvery_ms);
     // Losing the window's focus or the pointer also ends the jog.
     window.addEventListener('blur', endJog);
