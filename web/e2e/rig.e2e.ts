@@ -132,33 +132,6 @@ test('a number out of range stays as typed, and nothing moves', async () => {
   expect(person.complaints).toEqual([]);
 });
 
-test('a number typed before the first paint is kept', async () => {
-  const person = await come(there, 'otto', 'rig');
-  const { page } = person;
-  await takeReady(page);
-  await open(person, '/');
-  await page.getByRole('button', { name: 'Choose files' }).waitFor();
-  // Types when the field is added, before the browser paints it.
-  await page.evaluate(() => {
-    new MutationObserver((_, observer) => {
-      const label = [...document.querySelectorAll('label')].find(
-        ({ textContent }) => textContent === 'Move to',
-      );
-      const field = label?.control as HTMLInputElement | null | undefined;
-      if (!field) return;
-      observer.disconnect();
-      field.focus();
-      field.value = '30';
-      field.dispatchEvent(new InputEvent('input', { bubbles: true }));
-    }).observe(document.body, { childList: true, subtree: true });
-  });
-  await open(person, '/rig');
-  await page.getByRole('button', { name: 'Move', exact: true, disabled: false }).waitFor();
-  await page.waitForTimeout(200);
-  expect(await page.getByLabel('Move to').inputValue()).toBe('30');
-  expect(person.complaints).toEqual([]);
-});
-
 test('the commands stay while the rig is ours, and end with the lease', async () => {
   const person = await come(there, 'otto', 'rig');
   const { page } = person;
