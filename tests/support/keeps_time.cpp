@@ -1,13 +1,16 @@
 // main() of timing tests, which use drives with timeouts of 0.1 s. If the machine stalls during a
 // test, a failure means nothing. The program then prints the delay and runs the tests again. A
 // failure in the third try counts, even if the machine was late again.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <termios.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -54,9 +57,44 @@ void add_waits(const std::string& pid, Waits& waits) {
   }
 }
 
+/// Both ends of a pseudo-terminal.
+class Terminal {
+ public:
+  Terminal() : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    std::array<char, 128> name{};
+    if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
+        ::ptsname_r(master_, name.data(), name.size()) != 0)
+      return;
+    slave_ = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    termios settings{};
+    ::tcgetattr(slave_, &settings);
+    ::cfmakeraw(&settings);
+    ::tcsetattr(slave_, TCSANOW, &settings);
+  }
+  ~Terminal() {
+    if (slave_ >= 0) ::close(slave_);
+    if (master_ >= 0) ::close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  [[nodiscard]] bool is_open() const { return slave_ >= 0; }
+
+  /// Writes a byte and reads it at the other end.
+  [[nodiscard]] bool pass_byte() const {
+    char byte = 'x';
+    return ::write(master_, &byte, 1) == 1 && ::read(slave_, &byte, 1) == 1;
+  }
+
+ private:
+  int master_;
+  int slave_ = -1;
+};
+
 /// Measures the largest delay of many short sleeps, on up to kWatchedProcessors processors, and the
-/// longest wait of this process and its descendants for a core. The former also shows that a
-/// virtual machine stalls, the latter that other programs delay the rig or the daemon.
+/// longest wait of this process and its descendants for a core, and of a byte in a pseudo-terminal.
+/// The former also shows that a virtual machine stalls, the latter that other programs delay the
+/// rig or the daemon.
 class DelayMeter {
  public:
   DelayMeter() {
@@ -67,6 +105,7 @@ class DelayMeter {
       if (CPU_ISSET(cpu, &allowed)) watches_.emplace_back([this, cpu] { watch(cpu); });
     }
     watches_.emplace_back([this] { watch_waits(); });
+    watches_.emplace_back([this] { watch_terminal(); });
   }
   ~DelayMeter() { (void)end(); }
   DelayMeter(const DelayMeter&) = delete;
@@ -103,6 +142,18 @@ class DelayMeter {
     };
     for (add_waits("self", before); !end_; std::this_thread::sleep_for(kSampleInterval)) sample();
     sample();
+  }
+
+  /// Measures how long a byte takes through a pseudo-terminal, because threads of the kernel carry
+  /// it, as they carry the bytes of a simulated serial line.
+  void watch_terminal() {
+    Terminal terminal;
+    while (terminal.is_open() && !end_) {
+      const Clock::time_point sent = Clock::now();
+      if (!terminal.pass_byte()) return;
+      note(std::chrono::duration<double>(Clock::now() - sent).count());
+      std::this_thread::sleep_for(kInterval);
+    }
   }
 
   void note(double late_s) {
