@@ -14,9 +14,16 @@ constexpr std::size_t kStackBytes = std::size_t{64} << 10;
 constexpr std::size_t kSmallestPage = 4096;
 constexpr int kLowestNice = -20;
 
+// Not with ThreadSanitizer: its runtime spins on locks, and a SCHED_FIFO thread that spins can keep
+// the thread that holds the lock from running.
 bool request_fifo(int priority) {
+#ifdef __SANITIZE_THREAD__
+  (void)priority;
+  return false;
+#else
   const sched_param request{.sched_priority = priority};
   return ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &request) == 0;
+#endif
 }
 
 // Requests the lowest nice value that the system grants. Linux has a nice value for every thread.
