@@ -58,12 +58,19 @@ count() {
   echo "${value:-0}"
 }
 
-# tally_ended NAME LOG: counts the failures in the log of a ctest run that was ended, but not its passed tests.
+# tally_ended NAME LOG: counts the failures in the log of a ctest run that was ended, but not its passed tests. The last
+# try of a repeated test counts.
 tally_ended() {
   local name=$1 log=$2 test
   while IFS= read -r test; do
     count_failure "$name: $test (log: $log)"
-  done < <(sed -n 's|^ *[0-9]*/[0-9]* Test *#[0-9]*: \(.*[^ .]\) *\.*\*\*\*.*|\1|p' "$log" 2>/dev/null)
+  done < <(awk 'match($0, /^ *([0-9]+\/[0-9]+ )?Test +#[0-9]+: /) {
+                  line = substr($0, RLENGTH + 1)
+                  if (!match(line, / *\.+( +Passed|\*\*\*)/)) next
+                  name = substr(line, 1, RSTART - 1)
+                  state[name] = substr(line, RSTART) ~ /\*\*\*(Failed|Timeout|Exception|Not Run$)/ ? "bad" : ""
+                }
+                END { for (name in state) if (state[name]) print name }' "$log" 2>/dev/null)
 }
 
 # skip NAME: records a step that the budget left out or ended.
