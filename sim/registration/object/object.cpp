@@ -30,7 +30,7 @@ constexpr double kMaxThroughShare = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kMismatchTolerance = 0.03;
 constexpr double kSigmas = 3;
-/// Misfits this close are equal: fits end within a few micrometres of each other.
+/// Smaller differences of the misfit do not decide. Without noise, all misfits are nearly zero.
 constexpr double kSameMisfit_mm = 0.01;
 /// A connected piece off the mesh with a larger share of the points is a second object.
 constexpr double kOtherShare = 0.08;

@@ -37,12 +37,12 @@ struct ObjectTask {
 };
 
 /// Finds the object. Removes points that cannot belong to it, then fits rough alignments from many
-/// initial poses. If several explain the scan about equally well, as quarter turns of a board do,
-/// returns the one nearest to the nominal pose. Motions that the scan does not determine are taken
-/// from the nominal pose, with a warning. Fails with kFailedPrecondition: NO_OBJECT; WRONG_UNITS if
-/// the mesh would have the right size in another unit, which the message names; TWO_OBJECTS if a
-/// large part of the scan belongs to something else; MIRRORED if only the mirrored mesh fits;
-/// otherwise NOT_THIS_OBJECT.
+/// initial poses. If several explain the scan equally well within noise, as quarter turns of a
+/// board do, returns the one nearest to the nominal pose. Motions that the scan does not determine
+/// are taken from the nominal pose, with a warning. Fails with kFailedPrecondition: NO_OBJECT;
+/// WRONG_UNITS if the mesh would have the right size in another unit, which the message names;
+/// TWO_OBJECTS if a large part of the scan belongs to something else; MIRRORED if only the mirrored
+/// mesh fits; otherwise NOT_THIS_OBJECT.
 [[nodiscard]] Result<ObjectPose> find_object(const scan::Cloud& cloud,
                                              const scan::DepthFrame& depth,
                                              const FilmFrame& film_frame, const ObjectTask& task,
