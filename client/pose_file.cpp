@@ -9,6 +9,7 @@ Result<v1::Pose> read_pose_file(const std::filesystem::path& path) {
   v1::Pose pose;
   pose.mutable_rotation_wxyz()->Add(file.rotation_wxyz.begin(), file.rotation_wxyz.end());
   pose.mutable_translation_mm()->Add(file.translation_mm.begin(), file.translation_mm.end());
+  set_uncertainty(file.uncertainty, pose);
   return pose;
 }
 

@@ -10,6 +10,7 @@
 #include "daemon/jobs/referenced_job.h"
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "sim/base/pose_uncertainty.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -96,6 +97,15 @@ void fill_from(const v1::DipSpec& spec, dip::Plan& plan) {
   plan.clocks.skip = spec.yes_to_all();
 }
 
+/// Adds the warnings of an uncertain pose: that of a simulation or of a calibration.
+template <class Message>
+void doubt(const Message& stated, const std::string& where, dip::Plan& plan) {
+  for (Warning& warning : pose_warnings(uncertainty_of(stated), where)) {
+    plan.warnings.push_back(std::move(warning));
+    plan.has_uncertain_pose = true;
+  }
+}
+
 }  // namespace
 
 Result<SimulatedDip> read_simulated_dip(const std::string& report) {
@@ -135,15 +145,16 @@ Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout&
 
 Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationStore& calibrations,
                          const RigPlace& now, dip::Plan& plan) {
-  if (spec.calibration().empty()) return {};
-  HP_ASSIGN_OR_RETURN(const Calibration found,
-                      needed_calibration(spec.calibration(), "dip.calibration", calibrations));
   v1::SimulateSpec simulated;
   if (!spec.simulate_job().empty()) {
     HP_ASSIGN_OR_RETURN(auto simulation,
                         earlier_simulation(spec.simulate_job(), "dip.simulate_job", jobs));
     simulated = std::move(simulation.spec);
+    doubt(simulated.pose(), spec.simulate_job(), plan);
   }
+  if (spec.calibration().empty()) return {};
+  HP_ASSIGN_OR_RETURN(const Calibration found,
+                      needed_calibration(spec.calibration(), "dip.calibration", calibrations));
   const v1::Calibration calibration = to_message(found, now);
   const Objection why = objection(calibration, simulated.mesh());
   HP_RETURN_IF_ERROR(check_objection(calibration, why, spec.allow_stale_calibration()));
@@ -160,6 +171,9 @@ Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationSto
          fmt::format("{} was not computed for the pose of {}; the print may not fit",
                      spec.simulate_job(), calibration.name()),
          spec.simulate_job()});
+  }
+  if (simulated.calibration() != calibration.name()) {
+    doubt(calibration, calibration.name(), plan);
   }
   if (!knows_contact(calibration)) return {};
   plan.contact_mm = calibration.contact_mm();

@@ -32,7 +32,8 @@ struct SimulatedDip {
                                         const Layout& layout);
 
 /// Applies the calibration named in a dip's spec, if any, which determines the position of first
-/// contact.
+/// contact. Adds the warnings of pose_warnings() for the poses of the simulation and the
+/// calibration.
 /// @return CALIBRATION_MISSING, CALIBRATION_STALE, errors of earlier_simulation()
 [[nodiscard]] Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs,
                                        CalibrationStore& calibrations, const RigPlace& now,

@@ -5,6 +5,17 @@
 namespace hydroprint::dip {
 namespace {
 
+std::string print_film(const Plan& plan) {
+  const std::string image =
+      plan.simulate_job.empty() ? "the film image" : "the film image of " + plan.simulate_job;
+  if (!plan.has_uncertain_pose)
+    return fmt::format("print {} at its full size and let it dry; then confirm", image);
+  return fmt::format(
+      "the object's pose is uncertain (see the warnings): abort and calibrate again, or accept a "
+      "misplaced print: print {} at its full size and let it dry; then confirm",
+      image);
+}
+
 std::string find_contact(const Plan& plan) {
   if (!plan.contact_mm) {
     return "jog down until the object almost touches the water; then confirm: this sets first "
@@ -21,8 +32,7 @@ std::string find_contact(const Plan& plan) {
 std::string instruction(Step step, const Plan& plan) {
   switch (step) {
     case Step::kPrintFilm:
-      return fmt::format("print the film image{}{} at its full size and let it dry; then confirm",
-                         plan.simulate_job.empty() ? "" : " of ", plan.simulate_job);
+      return print_film(plan);
     case Step::kLoadObject:
       return "mount the object in the gripper as planned; then confirm";
     case Step::kFindContact:

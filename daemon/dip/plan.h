@@ -29,6 +29,9 @@ struct Plan {
   std::optional<double> contact_mm;
   std::int64_t homings = 0;  ///< the rig's number of homings (RigPlace) at the calibration
   Warnings warnings;         ///< reasons to expect a poor print
+  /// The pose of film or object is uncertain (pose_warnings()): the first step asks whether to go
+  /// on.
+  bool has_uncertain_pose = false;
 
   /// Returns the amount of activator for the film.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }

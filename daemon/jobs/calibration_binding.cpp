@@ -6,6 +6,7 @@
 
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/to_proto.h"
+#include "sim/base/pose_uncertainty.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -61,6 +62,9 @@ v1::Calibration to_message(const Calibration& calibration, const RigPlace& now) 
   if (calibration.definition.job != 0 && calibration.definition.kind == CalibrationKind::kObject) {
     out.set_picture(out.job() + "/artifacts/alignment.png");
   }
+  for (const Warning& warning : pose_warnings(uncertainty_of(out), out.name())) {
+    out.add_warnings(warning.message);
+  }
   if (!calibration.captured) return out;
   const RigPlace& then = calibration.captured->place;
   *out.mutable_capture_time() = time_of(calibration.captured->time_ms);
@@ -68,6 +72,12 @@ v1::Calibration to_message(const Calibration& calibration, const RigPlace& now) 
   if (!then.homed) return out;
   out.set_axis_mm(then.axis_mm);
   if (out.has_height_mm()) out.set_contact_mm(then.axis_mm + out.height_mm());
+  return out;
+}
+
+v1::Pose stated_pose(const v1::Calibration& calibration) {
+  v1::Pose out = calibration.pose();
+  set_uncertainty(uncertainty_of(calibration), out);
   return out;
 }
 

@@ -11,6 +11,9 @@ namespace hydroprint::daemon {
 /// Converts a calibration to its API message, with its validity for the current state of the rig.
 [[nodiscard]] v1::Calibration to_message(const Calibration& calibration, const RigPlace& now);
 
+/// Returns the pose of a calibration together with its stated error.
+[[nodiscard]] v1::Pose stated_pose(const v1::Calibration& calibration);
+
 /// Returns the reasons why an observation made in the rig's state `then` is not valid in its state
 /// `now`.
 [[nodiscard]] std::vector<v1::Calibration::Staleness> staleness(const RigPlace& then,

@@ -121,6 +121,9 @@ Status read_calibration(const std::string& text, v1::Calibration& out) {
   for (std::size_t i = 0; i < from.size("/from_nominal_pose"); ++i) {
     out.add_from_nominal_pose(from.text(fmt::format("/from_nominal_pose/{}", i)));
   }
+  for (std::size_t i = 0; i < from.size("/symmetries"); ++i) {
+    out.add_symmetries(from.text(fmt::format("/symmetries/{}", i)));
+  }
   const std::string markers = "/film_frame/markers";
   for (std::size_t i = 0; i < from.size(markers); ++i) {
     read_marker(from, fmt::format("{}/{}", markers, i), *out.add_markers());

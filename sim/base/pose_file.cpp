@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "sim/base/checked_json.h"
@@ -47,6 +48,20 @@ Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohman
   return xyz_mm;
 }
 
+Result<double> read_error(const std::string& where, const nlohmann::json& json) {
+  if (json.is_number() && json.get<double>() >= 0) return json.get<double>();
+  return fail(Code::kInvalidArgument, where + ": not an error in mm. Write 0 or a larger number");
+}
+
+Result<std::vector<std::string>> read_motions(const std::string& where,
+                                              const nlohmann::json& json) {
+  const auto is_text = [](const nlohmann::json& item) { return item.is_string(); };
+  if (json.is_array() && std::all_of(json.begin(), json.end(), is_text))
+    return json.get<std::vector<std::string>>();
+  return fail(Code::kInvalidArgument,
+              where + ": not a list of texts. Write texts in square brackets, or leave it out");
+}
+
 }  // namespace
 
 Pose PoseFile::pose() const {
@@ -75,6 +90,10 @@ Result<PoseFile> parse_pose(const nlohmann::json& json, const std::string& name)
       HP_ASSIGN_OR_RETURN(file.rotation_wxyz, read_rotation(where, value));
     } else if (key == "translation_mm") {
       HP_ASSIGN_OR_RETURN(file.translation_mm, read_translation(where, value));
+    } else if (key == "error_p95_mm") {
+      HP_ASSIGN_OR_RETURN(file.uncertainty.error_p95_mm, read_error(where, value));
+    } else if (key == "from_nominal_pose") {
+      HP_ASSIGN_OR_RETURN(file.uncertainty.from_nominal_pose, read_motions(where, value));
     } else {
       return fail(Code::kInvalidArgument, where.append(": not a known key").append(example));
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/base/pose.h"
+#include "sim/base/pose_uncertainty.h"
 #include "sim/base/result.h"
 
 namespace hydroprint {
@@ -14,13 +15,16 @@ namespace hydroprint {
 struct PoseFile {
   Eigen::Vector4d rotation_wxyz{1, 0, 0, 0};  ///< unit quaternion
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
+  PoseUncertainty uncertainty;
 
   [[nodiscard]] Pose pose() const;
 };
 
-/// Reads {"rotation_wxyz": [w, x, y, z], "translation_mm": [x, y, z]}; both keys are optional. The
-/// quaternion is normalised. Returns an error with file and key for unknown keys, lists of the
-/// wrong length, coordinates beyond 1e6 mm, and quaternions of almost zero length.
+/// Reads {"rotation_wxyz": [w, x, y, z], "translation_mm": [x, y, z]}, and the "error_p95_mm" and
+/// "from_nominal_pose" of a calibration; all keys are optional. The quaternion is normalised.
+/// Returns an error with file and key for unknown keys, lists of the wrong length, coordinates
+/// beyond 1e6 mm, quaternions of almost zero length, negative errors, and motions that are not
+/// texts.
 [[nodiscard]] Result<PoseFile> read_pose_file(const std::filesystem::path& path);
 
 /// Same as read_pose_file(), for JSON; `name` identifies the source in messages.

@@ -1,5 +1,6 @@
 #include "sim/calibrate/calibrate.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/registration/pairs.h"
@@ -67,6 +68,8 @@ tl::unexpected<Error> without_gripper(const Task& task, Error error) {
 Warnings all_warnings(const Task& task, const Calibration& found) {
   Warnings out = found.film_frame.warnings;
   out.insert(out.end(), found.object.warnings.begin(), found.object.warnings.end());
+  const Warnings pose = pose_warnings(found.uncertainty, "object");
+  out.insert(out.end(), pose.begin(), pose.end());
   const Warnings camera = camera_warnings(task.camera);
   out.insert(out.end(), camera.begin(), camera.end());
   if (!found.water)
@@ -78,6 +81,13 @@ Warnings all_warnings(const Task& task, const Calibration& found) {
 }
 
 }  // namespace
+
+double error_quantile_mm(std::vector<double> error_mm, double share) {
+  if (error_mm.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(error_mm.size() - 1));
+  std::nth_element(error_mm.begin(), error_mm.begin() + at, error_mm.end());
+  return error_mm[static_cast<std::size_t>(at)];
+}
 
 Result<Calibration> calibrate(const Task& task, const Context& context) {
   const scan::DepthNoise noise;
@@ -98,6 +108,7 @@ Result<Calibration> calibrate(const Task& task, const Context& context) {
   if (water) out.water = *water;
   HP_RETURN_IF_ERROR(add_points(cloud, task, out, context));
   out.error_mm = error_map(task, out.object);
+  out.uncertainty = {error_quantile_mm(out.error_mm, 0.95), out.object.weak};
   out.warnings = all_warnings(task, out);
   return out;
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/base/pose_uncertainty.h"
 #include "sim/calibrate/layout_file.h"
 #include "sim/mesh/surface.h"
 #include "sim/registration/camera/calibrate_camera.h"
@@ -35,8 +36,12 @@ struct Calibration {
   /// Distances of points_O from the surface, positive outward.
   std::vector<double> off_mm;
   std::vector<double> error_mm;  ///< registration error at the points of the surface
+  PoseUncertainty uncertainty;
   Warnings warnings;
 };
+
+/// Returns the error that a share of the surface's points does not exceed, mm; 0 without points.
+[[nodiscard]] double error_quantile_mm(std::vector<double> error_mm, double share);
 
 /// Computes the object's pose in the film frame from depth frames (paper, section 5.2). The height
 /// of the nominal pose is ignored: the object's top is placed at the gripper's lower end. If the

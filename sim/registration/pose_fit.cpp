@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -47,33 +48,40 @@ WeightedResiduals weighted_residuals(std::span<const Pair> pairs, NoiseModel noi
   return out;
 }
 
+/// Up to six orthonormal directions of motion, one per column.
+using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+using UpToSix = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+
 /// The normal equations along their eigenvectors.
 struct Split {
-  Matrix6 directions;  ///< eigenvectors, one per column
-  Vector6 information;
-  Vector6 sigma_mm;
-  Eigen::Array<bool, 6, 1> weak;
+  Directions directions;  ///< eigenvectors
+  UpToSix information;
+  UpToSix sigma_mm;
+  Eigen::Array<bool, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> weak;
 
   /// Returns the pseudo-inverse of the information, without the weak directions.
   [[nodiscard]] Matrix6 inverse() const {
-    const Vector6 each = weak.select(0, information.array().inverse()).matrix();
+    const UpToSix each = weak.select(0, information.array().inverse()).matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
   /// Returns the projection onto the weak directions.
   [[nodiscard]] Matrix6 onto_weak() const {
-    const Vector6 each = weak.cast<double>().matrix();
+    const UpToSix each = weak.cast<double>().matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
 };
 
+/// @param free        the directions in which the pose can be determined at all
 /// @param weak_count  number of weak directions once it is final; the directions with the largest
 ///                    errors are weak. Directions without any information are always weak
-Split split(const Normals& normals, double weak_sigma_mm,
+Split split(const Normals& normals, const Directions& free, double weak_sigma_mm,
             std::optional<Eigen::Index> weak_count = {}) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
-  Split out{solver.eigenvectors(), solver.eigenvalues(), Vector6::Zero(), {}};
+  const Eigen::MatrixXd information = free.transpose() * normals.information * free;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+  const Eigen::Index count = free.cols();
+  Split out{free * solver.eigenvectors(), solver.eigenvalues(), UpToSix::Zero(count), {}};
   const double nil = kNil * std::max(1.0, out.information.maxCoeff());
-  for (int k = 0; k < 6; ++k) {
+  for (Eigen::Index k = 0; k < count; ++k) {
     const Vector6 e = out.directions.col(k);
     const double information = std::max(out.information[k], nil);
     out.sigma_mm[k] = std::sqrt(std::max(0.0, e.dot(normals.scatter * e))) / information;
@@ -81,14 +89,32 @@ Split split(const Normals& normals, double weak_sigma_mm,
     const double at_least = 1 / std::sqrt(information);
     out.sigma_mm[k] = std::max(out.sigma_mm[k], at_least);
   }
-  Vector6 sorted = out.sigma_mm;
+  UpToSix sorted = out.sigma_mm;
   std::sort(sorted.begin(), sorted.end());
   // A direction near the limit must not change between weak and strong from step to step.
   if (weak_count)
-    weak_sigma_mm = *weak_count == 6 ? 0 : *weak_count == 0 ? INFINITY : sorted[5 - *weak_count];
+    weak_sigma_mm = *weak_count >= count ? 0
+                    : *weak_count == 0   ? INFINITY
+                                         : sorted[count - 1 - *weak_count];
   // Without any information a step along the direction is impossible.
   out.weak = out.sigma_mm.array() > weak_sigma_mm || out.information.array() <= nil;
   return out;
+}
+
+/// Turns about axes through the centre, in the scaled coordinates of the normal equations.
+Directions turns_about(std::span<const Eigen::Vector3d> axes) {
+  Directions out = Directions::Zero(6, static_cast<Eigen::Index>(axes.size()));
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    out.col(static_cast<Eigen::Index>(k)).head<3>() = axes[k];
+  return out;
+}
+
+/// Returns the directions that are perpendicular to all of the given ones.
+Directions complement(const Directions& given) {
+  if (given.cols() == 0) return Matrix6::Identity();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(given);
+  const Matrix6 all = qr.householderQ() * Matrix6::Identity();
+  return all.rightCols(6 - given.cols());
 }
 
 /// The pairs at one pose, with their weights and normal equations.
@@ -134,7 +160,7 @@ class Fitter {
     for (int i = 0; i < options_.most_iterations; ++i) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
       HP_ASSIGN_OR_RETURN(const LinearSystem system, linear_system_at(pose, reach, noise));
-      const Split parts = split(system.normals, options_.weak_sigma_mm, weak);
+      const Split parts = split_at(pose, system.normals, weak);
       const Vector6 step = step_of(system, parts, pose);
       pose = motion(unscaled(step), system.centre) * pose;
       const bool at_reach = reach <= kLeastReach_mm;
@@ -144,6 +170,19 @@ class Fitter {
       if (step.norm() < kNearlySettled_mm) weak = parts.weak.count();
     }
     return {};
+  }
+
+  /// Returns the turns that leave the surface in place, at a pose.
+  [[nodiscard]] Directions symmetries_at(const Pose& pose) const {
+    std::vector<Eigen::Vector3d> axes_C;
+    for (const Eigen::Vector3d& axis : options_.symmetry_axes)
+      axes_C.emplace_back(pose.linear() * axis);
+    return turns_about(axes_C);
+  }
+
+  [[nodiscard]] Split split_at(const Pose& pose, const Normals& normals,
+                               std::optional<Eigen::Index> weak_count) const {
+    return split(normals, complement(symmetries_at(pose)), options_.weak_sigma_mm, weak_count);
   }
 
   static Pairing pairing_at(double reach) {
@@ -172,11 +211,14 @@ class Fitter {
   }
   [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
 
-  /// Returns the Gauss-Newton step, and along weak directions the step to the nominal pose.
+  /// Returns the Gauss-Newton step, and along weak directions and symmetries the step to the
+  /// nominal pose.
   [[nodiscard]] Vector6 step_of(const LinearSystem& system, const Split& parts,
                                 const Pose& pose) const {
     const Vector6 to_nominal = twist_between(pose, nominal_, system.centre).cwiseQuotient(scale());
-    const Vector6 step = parts.inverse() * system.normals.pull + parts.onto_weak() * to_nominal;
+    const Directions symmetries = symmetries_at(pose);
+    const Matrix6 from_nominal = parts.onto_weak() + symmetries * symmetries.transpose();
+    const Vector6 step = parts.inverse() * system.normals.pull + from_nominal * to_nominal;
     return step * std::min(1.0, kMostStep_mm / std::max(step.norm(), 1e-300));
   }
 
@@ -186,7 +228,7 @@ class Fitter {
                camera_);
     // If residuals exceed their noise, the error of the result grows by the same factor.
     system.normals.scatter *= system.residuals.spread * system.residuals.spread;
-    const Split parts = split(system.normals, options_.weak_sigma_mm, weak);
+    const Split parts = split_at(pose, system.normals, weak);
     const Matrix6 inverse = parts.inverse(), onto_weak = parts.onto_weak();
     Vector6 nominal;
     nominal << Eigen::Vector3d::Constant(options_.nominal_turn_sigma_rad * length_mm_),
@@ -198,7 +240,7 @@ class Fitter {
     out.centre_mm = system.centre;
     out.covariance = scale().asDiagonal() * scaled * scale().asDiagonal();
     out.camera_gain = scale().asDiagonal() * (inverse * system.normals.camera);
-    for (int k = 0; k < 6; ++k)
+    for (Eigen::Index k = 0; k < parts.weak.size(); ++k)
       if (parts.weak[k]) out.weak.push_back({unscaled(parts.directions.col(k)), parts.sigma_mm[k]});
     judge(system.pairs, out);
     return out;
@@ -265,6 +307,15 @@ std::string describe(const WeakDirection& direction, const Eigen::Vector3d& cent
   const Eigen::Vector3d on_axis = centre_C + turn.cross(shift) / turn.squaredNorm();
   return "turn about the axis through " + text(X_AC * on_axis, 0) + " along " +
          text(X_AC.linear() * turn.normalized(), 2);
+}
+
+std::string describe_symmetry(std::span<const Eigen::Vector3d> axes_B,
+                              const Eigen::Vector3d& centroid_B, const Pose& X_AB) {
+  if (axes_B.empty()) return "";
+  const std::string centre = text(X_AB * centroid_B, 0);
+  if (axes_B.size() > 1) return "any turn about " + centre;
+  return "turn about the axis through " + centre + " along " +
+         text(X_AB.linear() * axes_B.front(), 2);
 }
 
 }  // namespace hydroprint::registration

@@ -28,6 +28,7 @@ struct PoseFit {
   /// Derivative of that twist with respect to the camera's unknowns. `covariance` does not include
   /// them; their contribution is camera_gain * camera_gain^T.
   CameraGain camera_gain = CameraGain::Zero(6, 0);
+  /// Without turns about FitOptions::symmetry_axes.
   std::vector<WeakDirection> weak;
   /// Number of points that lie on the surface within their noise, and their fraction of all given
   /// points. The noise, here and in rms_sigmas, is that of a camera with an unknown fixed pattern.
@@ -43,6 +44,9 @@ struct FitOptions {
   double nominal_turn_sigma_rad = 0.1;
   double nominal_shift_sigma_mm = 10;
   double reach_mm = 10;  ///< points that start farther from the surface are not paired
+  /// Axes of symmetry_axes(). Turns about them are taken from the nominal pose; as they leave the
+  /// surface in place, they do not count in the covariance.
+  std::vector<Eigen::Vector3d> symmetry_axes;
   int most_iterations = 60;
 };
 
@@ -68,5 +72,10 @@ struct FitOptions {
 /// frame A.
 [[nodiscard]] std::string describe(const WeakDirection& direction, const Eigen::Vector3d& centre_C,
                                    const Pose& X_AC);
+
+/// Returns "any turn about (x, y, z)" or "turn about the axis through (x, y, z) along (x, y, z)",
+/// in frame A, for the axes of symmetry_axes(); "" if there are none.
+[[nodiscard]] std::string describe_symmetry(std::span<const Eigen::Vector3d> axes_B,
+                                            const Eigen::Vector3d& centroid_B, const Pose& X_AB);
 
 }  // namespace hydroprint::registration

@@ -90,8 +90,13 @@ struct Shape::Impl {
   }
 
   void take_moments() {
+    double total = 0;
+    for (const auto& c : corners) {
+      centroid += area(c) * (c[0] + c[1] + c[2]) / 3;
+      total += area(c);
+    }
+    centroid /= total;
     const auto all = samples(kSamplesForMoments);
-    for (const auto& s : all) centroid += s.point_mm / static_cast<double>(all.size());
     double squares = 0;
     for (const auto& s : all) squares += (s.point_mm - centroid).squaredNorm();
     radius_mm = std::sqrt(squares / static_cast<double>(all.size()));

@@ -30,7 +30,8 @@ class LoopCli : public ::testing::Test {
     lens = folder.write("lens.json", calibrate::camera_json(camera)).string();
   }
 
-  hydroprint::testing::Ended loop(const std::vector<std::string>& more) const {
+  hydroprint::testing::Ended loop(const std::vector<std::string>& more,
+                                  const std::string& camera) const {
     std::vector<std::string> all{"/usr/bin/env",
                                  "XDG_RUNTIME_DIR=" + folder.path().string(),
                                  testing::program_path("hydroprint"),
@@ -38,7 +39,7 @@ class LoopCli : public ::testing::Test {
                                  daemon->address(),
                                  "loop",
                                  "--camera",
-                                 lens,
+                                 camera,
                                  "--model",
                                  "stokes",
                                  "--dpi",
@@ -60,7 +61,7 @@ class LoopCli : public ::testing::Test {
 };
 
 TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
-  const auto ended = loop({"--object", "board", "--control", rig.control()});
+  const auto ended = loop({"--object", "board", "--control", rig.control()}, lens);
   const json report = json::parse(std::ifstream(out() / "report.json"));
   ASSERT_EQ(ended.status, report["passed"] ? 0 : 4) << ended.err;
   EXPECT_NE(ended.out.find("169 cross-points land within"), std::string::npos) << ended.out;
@@ -78,6 +79,15 @@ TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
     EXPECT_TRUE(std::filesystem::exists(out() / picture)) << picture;
   EXPECT_TRUE(std::filesystem::exists(out() / "pose1-print.pdf"));
   EXPECT_TRUE(std::filesystem::exists(out() / "report.html"));
+}
+
+/// The lens of a camera that was not calibrated has large errors.
+TEST_F(LoopCli, StopsAtACalibrationWithALargeErrorAndSaysWhy) {
+  const auto ended = loop({"--object", "board", "--control", rig.control()}, "active");
+  EXPECT_EQ(ended.status, 4) << ended.err;
+  EXPECT_NE(ended.err.find("the pose may be wrong by"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("calibrate again"), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(out() / "pose1-print.pdf"));
 }
 
 TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
@@ -105,7 +115,7 @@ TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
 }
 
 TEST_F(LoopCli, ReportsMissingRequirements) {
-  const auto ended = loop({"--control", (folder.path() / "nothing").string()});
+  const auto ended = loop({"--control", (folder.path() / "nothing").string()}, lens);
   EXPECT_EQ(ended.status, 5);
   EXPECT_NE(ended.err.find("no virtual rig responds"), std::string::npos) << ended.err;
 }

@@ -82,8 +82,7 @@ std::vector<scan::DepthFrame> Rig::frames(int count, std::uint64_t seed, int fir
   const simulated_camera::Depths depths = look(*this, true);
   std::vector<scan::DepthFrame> out;
   for (int i = 0; i < count; ++i) {
-    const double time_s = static_cast<double>(first + i) / simulated_camera::kRate_hz;
-    const auto frame = simulated_camera::sense(depths, lens.depth_scale, errors, seed, time_s);
+    const auto frame = simulated_camera::sense(depths, lens.depth_scale, errors, seed, first + i);
     out.push_back({simulated_camera::kWidth_px, simulated_camera::kHeight_px,
                    std::vector<float>(frame.begin(), frame.end())});
   }

@@ -77,8 +77,7 @@ scan::DepthFrame SweptCamera::frame(int frame) const {
   const auto depths = renderer_->look(sight_at(frame), X_FC(frame), has_errors_);
   scan::DepthFrame out{simulated_camera::kWidth_px, simulated_camera::kHeight_px, depths};
   if (!has_errors_) return out;
-  const auto told =
-      simulated_camera::sense(depths, lens_.depth_scale, {}, seed_, sight_at(frame).time_s);
+  const auto told = simulated_camera::sense(depths, lens_.depth_scale, {}, seed_, frame);
   out.depth_mm.assign(told.begin(), told.end());
   return out;
 }

@@ -70,7 +70,9 @@ constexpr char kLoopFooter[] =
     "and dips on the rig. A computation then dips that film image at the true pose, with errors "
     "of\n"
     "axis, film and printer, and measures where the picture's cross-points land.\n"
-    "The exit status is 4 if the error is above its limit.\n"
+    "The exit status is 4 if the error is above its limit, or if a calibration is too uncertain: "
+    "a\n"
+    "motion that the scan does not determine, or a stated error above 1 mm.\n"
     "The rig's --scene must have a [camera], and enough space above the water for the object.\n\n"
     "Example:\n"
     "  hydroprint loop --object board --control /tmp/rig --poses 10 --out loop";

@@ -28,8 +28,11 @@ std::string object_text(const v1::Calibration& c) {
         "  surface position error: {:.2f} mm for 95 % of the surface, at most {:.2f} mm\n",
         c.error_p95_mm(), c.error_max_mm());
   out += markers_text(c);
-  for (const std::string& what : c.from_nominal_pose())
-    out += fmt::format("  from the nominal pose: {}\n", printable(what));
+  for (const std::string& what : c.symmetries())
+    out +=
+        fmt::format("  not measured, because it does not move the surface: {}\n", printable(what));
+  for (const std::string& warning : c.warnings())
+    out += fmt::format("  warning: {}\n", printable(warning));
   if (c.has_contact_mm()) out += fmt::format("  first contact at {:.2f} mm\n", c.contact_mm());
   if (c.job().empty()) out += "  entered by hand\n";
   return out;

@@ -28,6 +28,13 @@ namespace fs = std::filesystem;
 constexpr double kAbove_mm = 40;       ///< the object's lowest point above the water in captures
 constexpr double kRoundDepth_mm = 90;  ///< immersion of the sphere, slightly beyond its equator
 
+/// Returns kAborted with the warnings of a calibration that is too uncertain for a print.
+Status check_usable(const v1::Calibration& found) {
+  if (found.warnings().empty()) return {};
+  return fail(Code::kAborted,
+              fmt::format("{}: {}", found.name(), fmt::join(found.warnings(), "; ")));
+}
+
 }  // namespace
 
 LoopRounds::LoopRounds(Program& program, const LoopOptions& options, loop::Body body,
@@ -117,10 +124,13 @@ Result<v1::Calibration> LoopRounds::calibrate(loop::Round& out) {
   HP_RETURN_IF_ERROR(fetch(ended.name(), "alignment.png", "alignment", out));
   HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::get_calibration(program_.daemon(), "calibrations/active"));
-  if (found.job() == ended.name()) return found;
-  return fail(Code::kAborted,
-              "another calibration became active during the loop; run the loop again while nobody "
-              "else calibrates");
+  if (found.job() != ended.name())
+    return fail(
+        Code::kAborted,
+        "another calibration became active during the loop; run the loop again while nobody "
+        "else calibrates");
+  HP_RETURN_IF_ERROR(check_usable(found));
+  return found;
 }
 
 Result<v1::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {

@@ -14,7 +14,7 @@ constexpr double kDefaultDpi = 300;
 
 class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
  private:
-  /// If a simulate job is named, film image, film and resolution are taken from it.
+  /// If a simulate job is named, film image, pose, film and resolution are taken from it.
   [[nodiscard]] Status resolve_spec(v1::PrintImageSpec& shown, v1::PrintImageSpec& resolved,
                                     const JobSources& sources) const override {
     if (shown.simulate_job().empty()) return {};
@@ -41,6 +41,7 @@ class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
     // A separate folder prevents collisions with the simulation's files.
     HP_ASSIGN_OR_RETURN(*spec.mutable_film_image(),
                         adopt_artifact(id, *image, std::string("image/") + kFilmImage, sources));
+    if (simulation.spec.has_pose()) *spec.mutable_pose() = simulation.spec.pose();
     take_film(simulation.spec, spec);
     return {};
   }

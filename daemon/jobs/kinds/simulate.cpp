@@ -32,7 +32,7 @@ class SimulateKind final : public KindOf<v1::SimulateSpec> {
     HP_RETURN_IF_ERROR(check_objection(calibration, objection(calibration, spec.mesh()),
                                        spec.allow_stale_calibration()));
     spec.set_calibration(calibration_name(found.id));
-    *spec.mutable_pose() = calibration.pose();
+    *spec.mutable_pose() = stated_pose(calibration);
     spec.set_scale(calibration.scale());
     if (!calibration.film().empty()) spec.set_film(calibration.film());
     if (calibration.has_film_file()) add_polygon(calibration.film_file(), spec);

@@ -258,12 +258,12 @@ Depths Renderer::look(const simulated_scene::Sight& sight, const Pose& X_FC, boo
   return out;
 }
 
-Frame Renderer::photograph(const simulated_scene::Sight& sight) {
+Frame Renderer::photograph(const simulated_scene::Sight& sight, int number) {
   const simulated_scene::Scenery& scenery = rays_->scenery;
   const Pose X_FC = simulated_scene::camera_pose(scenery.stand, scenery.seed, sight.time_s);
   const Errors errors{scenery.has_errors, scenery.has_errors, scenery.has_errors};
   return sense(look(sight, X_FC, scenery.has_errors), rays_->lens.depth_scale, errors, scenery.seed,
-               sight.time_s);
+               number);
 }
 
 Lens lens_of(const simulated_scene::Scenery& scenery) {

@@ -27,10 +27,10 @@ class Renderer {
   /// @param lit  a depth is also 0 where the projector's light does not arrive
   [[nodiscard]] Depths look(const simulated_scene::Sight& sight, const Pose& X_FC, bool lit = true);
 
-  /// Renders a frame of the scenery's own camera, at the camera's pose at sight.time_s, with lens
-  /// and sensor errors unless Scenery::has_errors is false. Ignores sight.camera (frozen, black or
-  /// gone).
-  [[nodiscard]] Frame photograph(const simulated_scene::Sight& sight);
+  /// Renders frame `number` of the scenery's own camera, at the camera's pose at sight.time_s, with
+  /// lens and sensor errors unless Scenery::has_errors is false. Ignores sight.camera (frozen,
+  /// black or gone).
+  [[nodiscard]] Frame photograph(const simulated_scene::Sight& sight, int number);
 
  private:
   struct Rays;

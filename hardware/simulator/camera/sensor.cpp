@@ -89,10 +89,9 @@ std::vector<float> constant_noise(std::uint64_t seed) {
 }
 
 Frame sense(const Depths& depths, double depth_scale, const Errors& errors, std::uint64_t seed,
-            double time_s) {
+            int number) {
   constexpr int kAcross = (kWidth_px + kPatch_px - 1) / kPatch_px;
-  const auto time_us = static_cast<std::uint64_t>(std::llround(time_s * 1e6));
-  const std::uint64_t key = mixed(mixed(seed) + time_us);
+  const std::uint64_t key = mixed(mixed(seed) + static_cast<std::uint64_t>(number));
   const std::vector<float> constant = errors.noise ? constant_noise(seed) : std::vector<float>();
   const double share = std::sqrt(kConstantShare);
   const double rest = std::sqrt(1 - kConstantShare);

@@ -39,7 +39,8 @@ inline constexpr double kConstantShare = 0.5;
 inline constexpr double kDisparityStep_px = 0.125;
 
 /// Applies the sensor's errors. The same arguments produce bit-identical results.
+/// @param number  number of the frame; determines the part of the noise that changes with time
 [[nodiscard]] Frame sense(const Depths& depths, double depth_scale, const Errors& errors,
-                          std::uint64_t seed, double time_s);
+                          std::uint64_t seed, int number);
 
 }  // namespace hydroprint::simulated_camera

@@ -138,7 +138,7 @@ bool DepthStream::tell_frame(RigLine& line, int index) {
   if (sight.camera == simulated_scene::CameraState::kBlack) {
     std::fill(last_.begin(), last_.end(), std::uint16_t{0});
   } else if (sight.camera == simulated_scene::CameraState::kWell) {
-    last_ = renderer_.photograph(sight);
+    last_ = renderer_.photograph(sight, index);
   }
   publish(index, sight.time_s);
   return true;

@@ -48,7 +48,8 @@ struct Scenery {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   CameraStand stand;
-  std::uint64_t seed = 1;  ///< for the camera: its lens, its noise, and the motion of the hand
+  std::uint64_t seed =
+      1;  ///< for the camera: its lens, its noise (with a frame's number), the hand's motion
   bool has_errors = true;  ///< false: an ideal camera
   /// If true, frames are 1/30 s apart regardless of the clock, so the same scene yields the same
   /// frames.

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "sim/base/number_text.h"
+#include "sim/registration/object/best_fit.h"
 #include "sim/registration/object/units.h"
 #include "sim/registration/pairs.h"
 #include "sim/registration/segments.h"
 #include "sim/registration/starts.h"
+#include "sim/registration/symmetry.h"
 
 namespace hydroprint::registration {
 namespace {
@@ -28,10 +30,6 @@ constexpr std::size_t kFewestInBlock = 40;
 constexpr double kLeastOnShare = 0.85;
 constexpr double kMaxThroughShare = 0.12;
 constexpr double kMostMisfit_mm = 1;
-constexpr double kMismatchTolerance = 0.03;
-constexpr double kSigmas = 3;
-/// Smaller differences of the misfit do not decide. Without noise, all misfits are nearly zero.
-constexpr double kSameMisfit_mm = 0.01;
 /// A connected piece off the mesh with a larger share of the points is a second object.
 constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
@@ -85,19 +83,6 @@ Misfit misfit_of(const std::vector<Pair>& pairs, int width_px) {
   return {count > 0 ? std::sqrt(squares / count) : 0, count};
 }
 
-/// Returns whether a candidate explains the scan as well as another one, within three standard
-/// errors of noise: of the number of points on the surface, which is binomial, and of an rms over
-/// independent blocks, 1 / sqrt(2 n) of its value.
-bool equals_within_noise(const Candidate& candidate, const Candidate& best) {
-  const double given = static_cast<double>(best.fit.points) / best.fit.paired_share;
-  const double points_sigma =
-      std::sqrt(given * best.fit.paired_share * (1 - best.fit.paired_share));
-  const double fewest = static_cast<double>(best.fit.points) - kSigmas * points_sigma - 1;
-  const double misfit_sigma = best.misfit_mm / std::sqrt(2 * std::max(1.0, best.misfit_blocks));
-  return static_cast<double>(candidate.fit.points) >= fewest &&
-         candidate.misfit_mm <= best.misfit_mm + kSigmas * misfit_sigma + kSameMisfit_mm;
-}
-
 class Finder {
  public:
   Finder(const Shape& shape, const std::vector<scan::ScanPoint>& points,
@@ -109,7 +94,9 @@ class Finder {
         camera_(camera),
         nominal_(nominal_CO),
         options_(options),
-        context_(context) {}
+        context_(context) {
+    options_.symmetry_axes = symmetry_axes(shape);
+  }
 
   Result<Candidate> best() const {
     HP_ASSIGN_OR_RETURN(const auto starts,
@@ -123,10 +110,17 @@ class Finder {
       tried.push_back(std::move(candidate));
     }
     if (tried.empty()) return not_this("no orientation of the mesh comes near the scan");
-    const Candidate& chosen = choose(tried);
+    std::vector<FitQuality> qualities;
+    for (const Candidate& candidate : tried) qualities.push_back(quality(candidate));
+    const Candidate& chosen = tried[best_fit(qualities)];
     HP_ASSIGN_OR_RETURN(const PoseFit fit, fit_pose(shape_, points_, camera_, chosen.fit.X_CB,
                                                     nominal_, options_, context_));
     return judged(fit);
+  }
+
+  /// Returns the symmetry of the mesh in words, in the film frame; see describe_symmetry().
+  [[nodiscard]] std::string symmetry(const Pose& X_FO) const {
+    return describe_symmetry(options_.symmetry_axes, shape_.centroid(), X_FO);
   }
 
   [[nodiscard]] static tl::unexpected<Error> not_this(const std::string& why) {
@@ -182,24 +176,14 @@ class Finder {
     return out;
   }
 
-  /// Of the candidates that explain the scan as well as the best one within noise, returns the one
-  /// with the smallest rotation from the nominal pose.
-  [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
-    double least = 1e9;
-    for (const Candidate& c : tried) least = std::min(least, c.mismatch());
-    const auto is_near = [&](const Candidate& c) {
-      return c.mismatch() <= least + kMismatchTolerance;
-    };
-    const Candidate& best =
-        *std::min_element(tried.begin(), tried.end(), [&](const auto& a, const auto& b) {
-          return (is_near(a) ? a.distance_mm : 1e9) < (is_near(b) ? b.distance_mm : 1e9);
-        });
-    const auto turn = [&](const Candidate& c) {
-      if (!is_near(c) || !equals_within_noise(c, best)) return 1e9;
-      return Eigen::AngleAxisd(c.fit.X_CB.linear().transpose() * nominal_.linear()).angle();
-    };
-    return *std::min_element(tried.begin(), tried.end(),
-                             [&](const auto& a, const auto& b) { return turn(a) < turn(b); });
+  [[nodiscard]] FitQuality quality(const Candidate& c) const {
+    return {static_cast<double>(some().size()),
+            static_cast<double>(c.fit.points),
+            c.misfit_mm,
+            c.misfit_blocks,
+            c.mismatch(),
+            c.distance_mm,
+            Eigen::AngleAxisd(c.fit.X_CB.linear().transpose() * nominal_.linear()).angle()};
   }
 
   const Shape& shape_;
@@ -207,7 +191,7 @@ class Finder {
   const scan::DepthFrame& depth_;
   const scan::Camera& camera_;
   const Pose& nominal_;
-  const FitOptions& options_;
+  FitOptions options_;
   const Context& context_;
 };
 
@@ -247,12 +231,6 @@ void warn(ObjectPose& out) {
                                 " of the surface that faces the camera is hidden. Move the camera, "
                                 "or remove what hides the object",
                             "object"});
-  for (const std::string& weak : out.weak)
-    out.warnings.push_back({"pose_unconstrained",
-                            "the scan does not determine this part of the pose, so it is taken "
-                            "from the nominal pose: " +
-                                weak,
-                            "object"});
 }
 
 }  // namespace
@@ -291,6 +269,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   out.on_share = best.on_share;
   out.sight = best.sight;
   place_in_film(film_frame, out);
+  out.symmetry = finder.symmetry(out.X_FO);
   warn(out);
   return out;
 }

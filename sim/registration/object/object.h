@@ -22,10 +22,11 @@ struct ObjectPose {
   Matrix6 covariance = Matrix6::Zero();
   PoseFit fit;                    ///< pose in the camera frame
   std::vector<std::string> weak;  ///< motions that the scan does not determine (describe())
+  std::string symmetry;           ///< turns that carry the mesh onto itself (describe_symmetry())
   double misfit_mm = 0;  ///< rms, over blocks of 16 x 16 pixels, of the mean distance from the mesh
   double on_share = 0;   ///< fraction of the scan's points within 4 mm of the mesh
   Sight sight;
-  Warnings warnings;  ///< `object_partly_out_of_view`, `object_partly_hidden`, `pose_unconstrained`
+  Warnings warnings;  ///< `object_partly_out_of_view`, `object_partly_hidden`
 };
 
 /// Input of find_object() besides the scan.
@@ -38,11 +39,11 @@ struct ObjectTask {
 
 /// Finds the object. Removes points that cannot belong to it, then fits rough alignments from many
 /// initial poses. If several explain the scan equally well within noise, as quarter turns of a
-/// board do, returns the one nearest to the nominal pose. Motions that the scan does not determine
-/// are taken from the nominal pose, with a warning. Fails with kFailedPrecondition: NO_OBJECT;
-/// WRONG_UNITS if the mesh would have the right size in another unit, which the message names;
-/// TWO_OBJECTS if a large part of the scan belongs to something else; MIRRORED if only the mirrored
-/// mesh fits; otherwise NOT_THIS_OBJECT.
+/// board do, returns the one nearest to the nominal pose. Motions that the scan does not determine,
+/// and turns that carry the mesh onto itself, are taken from the nominal pose. Fails with
+/// kFailedPrecondition: NO_OBJECT; WRONG_UNITS if the mesh would have the right size in another
+/// unit, which the message names; TWO_OBJECTS if a large part of the scan belongs to something
+/// else; MIRRORED if only the mirrored mesh fits; otherwise NOT_THIS_OBJECT.
 [[nodiscard]] Result<ObjectPose> find_object(const scan::Cloud& cloud,
                                              const scan::DepthFrame& depth,
                                              const FilmFrame& film_frame, const ObjectTask& task,

@@ -88,11 +88,12 @@ void Flags::require_folders(const std::string& name, const std::string& file) {
 Status Flags::read_pose() {
   if (pose_file_.empty()) return {};
   HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(pose_file_));
-  HP_RETURN_IF_ERROR(parse_pose(json, pose_file_.string()));
+  HP_ASSIGN_OR_RETURN(const PoseFile file, parse_pose(json, pose_file_.string()));
   auto& pose =
       static_cast<v1::Pose&>(*spec_.GetReflection()->MutableMessage(&spec_, &field("pose")));
   add_numbers(json, "rotation_wxyz", *pose.mutable_rotation_wxyz());
   add_numbers(json, "translation_mm", *pose.mutable_translation_mm());
+  set_uncertainty(file.uncertainty, pose);
   return {};
 }
 

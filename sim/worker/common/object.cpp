@@ -44,4 +44,8 @@ Result<Pose> pose_of(const v1::Pose& pose) {
   return file->pose();
 }
 
+Warnings pose_warnings_of(const v1::Pose& pose) {
+  return pose_warnings(uncertainty_of(pose), "pose");
+}
+
 }  // namespace hydroprint::worker

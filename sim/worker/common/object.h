@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/pose.h"
+#include "sim/base/pose_uncertainty.h"
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/input_folder.h"
 #include "sim/worker/common/report.h"
@@ -23,6 +24,7 @@ struct ObjectOptions {
   double scale = 1;                 ///< millimetres per model unit
   std::optional<Pose> X_FO;         ///< nullopt: as in the mesh file, centred on the film
   std::filesystem::path pose_file;  ///< file of X_FO; empty: not from a file
+  Warnings pose_warnings;           ///< of pose_warnings_of()
   std::string film = "A4";          ///< name for film::parse_outline()
 };
 
@@ -32,6 +34,9 @@ struct ObjectOptions {
 
 /// Reads the field `pose`. Returns fail_field() if it is not a rigid transform.
 [[nodiscard]] Result<Pose> pose_of(const v1::Pose& pose);
+
+/// Returns the warnings of pose_warnings() for the field `pose`.
+[[nodiscard]] Warnings pose_warnings_of(const v1::Pose& pose);
 
 /// Reads the field `film`.
 template <class Spec>
@@ -47,6 +52,7 @@ Result<ObjectOptions> object_options(const Spec& spec, const InputFolder& inputs
   if (spec.has_pose()) {
     HP_ASSIGN_OR_RETURN(out.X_FO, pose_of(spec.pose()));
     out.pose_file = inputs.pose_file();
+    out.pose_warnings = pose_warnings_of(spec.pose());
   }
   HP_ASSIGN_OR_RETURN(out.film, film_of(spec, inputs));
   return out;

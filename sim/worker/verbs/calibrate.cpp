@@ -28,9 +28,9 @@ namespace {
 
 constexpr const char* kExamples =
     R"(calibration.json: the object's pose in the film frame with its covariance, the directions taken from the nominal
-pose because the scan does not determine them, the fit of each marker, and the water level. pose.json: the pose for
-simulate --pose. alignment.png: the scan's points over the mesh, coloured by distance. error.png: the uncertainty of the
-surface's position.
+pose because the scan does not determine them, the turns that carry the mesh onto itself, the fit of each marker, and
+the water level. pose.json: the pose and its error, for --pose of simulate and print-image. alignment.png: the scan's
+points over the mesh, coloured by distance. error.png: the uncertainty of the surface's position.
 
 Examples:
   hydroprint-capture --seconds 2 --out frames
@@ -111,13 +111,6 @@ Json matrix_json(const registration::Matrix6& matrix) {
   return out;
 }
 
-double share_of(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
 Json scan_json(const registration::ObjectPose& object) {
   return {{"points", object.fit.points},
           {"on_object_share", object.on_share},
@@ -128,6 +121,20 @@ Json scan_json(const registration::ObjectPose& object) {
           {"hidden_share", object.sight.before + object.sight.without_depth}};
 }
 
+Json symmetries_json(const registration::ObjectPose& object) {
+  Json out = Json::array();
+  if (!object.symmetry.empty()) out.push_back(object.symmetry);
+  return out;
+}
+
+/// Returns the content of pose.json.
+Json pose_file_json(const calibrate::Calibration& c) {
+  Json out = pose_json(c.object.X_FO);
+  out["error_p95_mm"] = c.uncertainty.error_p95_mm.value_or(0);
+  out["from_nominal_pose"] = c.uncertainty.from_nominal_pose;
+  return out;
+}
+
 /// Returns the content of calibration.json.
 /// @param lowest_mm  z of the object's lowest point (F)
 Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
@@ -135,10 +142,11 @@ Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
               {"uncertainty",
                {{"about_mm", list_of(c.object.centre_mm)},
                 {"covariance_turn_rad_shift_mm", matrix_json(c.object.covariance)},
-                {"error_p50_mm", share_of(c.error_mm, 0.5)},
-                {"error_p95_mm", share_of(c.error_mm, 0.95)},
-                {"error_max_mm", share_of(c.error_mm, 1)}}},
-              {"from_nominal_pose", c.object.weak},
+                {"error_p50_mm", calibrate::error_quantile_mm(c.error_mm, 0.5)},
+                {"error_p95_mm", c.uncertainty.error_p95_mm.value_or(0)},
+                {"error_max_mm", calibrate::error_quantile_mm(c.error_mm, 1)}}},
+              {"from_nominal_pose", c.uncertainty.from_nominal_pose},
+              {"symmetries", symmetries_json(c.object)},
               {"film_frame", film_frame_json(c.film_frame)},
               {"scan", scan_json(c.object)}};
   if (c.water)
@@ -231,7 +239,7 @@ Status Calibrate::write(const std::filesystem::path& folder, const mesh::Surface
   HP_RETURN_IF_ERROR(write_pictures(folder, surface, found_, context));
   context.progress("writing", 0);
   HP_RETURN_IF_ERROR(image::write_artifact(folder / "calibration.json", figures().dump(1) + "\n"));
-  return image::write_artifact(folder / "pose.json", pose_json(found_.object.X_FO).dump(1) + "\n");
+  return image::write_artifact(folder / "pose.json", pose_file_json(found_).dump(1) + "\n");
 }
 
 std::string Calibrate::summary(const Report& report, const std::filesystem::path& dir) const {
@@ -239,13 +247,15 @@ std::string Calibrate::summary(const Report& report, const std::filesystem::path
   const auto used =
       std::count_if(markers.begin(), markers.end(), [](const auto& m) { return m.used; });
   std::string weak;
-  for (const std::string& what : found_.object.weak)
+  for (const std::string& what : found_.uncertainty.from_nominal_pose)
     weak += "taken from the nominal pose: " + what + "\n";
+  if (!found_.object.symmetry.empty())
+    weak += "does not move the surface, so it is not measured: " + found_.object.symmetry + "\n";
   return fmt::format(
       "{}used {} of {} markers; residual of the object's fit {:.2f} mm (rms), uncertainty of the "
       "surface {:.2f} mm (95th percentile)\n{}",
       artifacts_line(dir, report), used, markers.size(), found_.object.fit.rms_mm,
-      share_of(found_.error_mm, 0.95), weak);
+      found_.uncertainty.error_p95_mm.value_or(0), weak);
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -42,6 +42,8 @@ enum class Format { kPdf, kPng, kTiff };
 struct PrintImageOptions {
   std::filesystem::path film_image;
   std::string film;
+  std::filesystem::path pose_file;
+  Warnings pose_warnings;
   print::PrintSettings print;
   std::vector<Format> formats;  ///< empty: chosen by the colours
 };
@@ -82,6 +84,10 @@ Result<PrintImageOptions> read_options(const v1::PrintImageSpec& spec, const Inp
   PrintImageOptions out;
   HP_ASSIGN_OR_RETURN(out.film_image, inputs.required("film_image", spec.film_image()));
   HP_ASSIGN_OR_RETURN(out.film, film_of(spec, inputs));
+  if (spec.has_pose()) {
+    out.pose_file = inputs.pose_file();
+    out.pose_warnings = pose_warnings_of(spec.pose());
+  }
   HP_ASSIGN_OR_RETURN(out.print, read_settings(spec, inputs));
   HP_ASSIGN_OR_RETURN(out.formats, read_formats(spec));
   return out;
@@ -190,6 +196,7 @@ class PrintImage final : public ArtifactTask {
  protected:
   [[nodiscard]] std::vector<InputPath> input_files() const override {
     return {{"film_image", options_.film_image},
+            {"pose", options_.pose_file},
             film_file(options_.film),
             {"icc_profile", options_.print.colours.icc_profile}};
   }
@@ -226,7 +233,8 @@ Status PrintImage::compute(OutFolder& folder, Report& report, const Context& con
     return fail_field(Code::kInvalidArgument, "formats",
                       "PNG does not support CMYK. Leave png out, or print in RGB");
   }
-  report.warnings = print_.warnings;
+  report.warnings = options_.pose_warnings;
+  report.warnings.insert(report.warnings.end(), print_.warnings.begin(), print_.warnings.end());
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write_files(print_, formats, folder.partial(), report.artifacts, context));
   print_.document.pages.clear();

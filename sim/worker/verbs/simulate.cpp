@@ -147,6 +147,8 @@ Status Simulate::compute(OutFolder& folder, Report& report, const Context& conte
   HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
   dip_ = {options.dip, simulation.model, simulation.dip};
   report.warnings = simulation.warnings;
+  const Warnings& pose = options_.flow.dip.object.pose_warnings;
+  report.warnings.insert(report.warnings.begin(), pose.begin(), pose.end());
   HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
   if (simulation.images) {
     film_image_px_ = {simulation.images->film.width, simulation.images->film.height};

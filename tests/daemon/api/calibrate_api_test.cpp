@@ -153,6 +153,9 @@ TEST_F(CalibrateApi, CalibrationHoldsThePoseAndTheAxisPosition) {
   ASSERT_EQ(found.markers_size(), 2);
   EXPECT_EQ(found.markers(1).why_not(), "hidden");
   EXPECT_EQ(found.from_nominal_pose(0), "turn");
+  ASSERT_EQ(found.warnings_size(), 1);
+  EXPECT_TRUE(has(found.warnings(0), "from the nominal pose: turn")) << found.warnings(0);
+  EXPECT_EQ(found.symmetries(0), "any turn");
   EXPECT_EQ(found.water_z_mm(), 0.25);
   EXPECT_NEAR(found.axis_mm(), kAxis_mm, 0.2);
   EXPECT_NEAR(found.contact_mm(), found.axis_mm() + 10.5, 1e-9) << "positive is down";
@@ -256,6 +259,12 @@ TEST_F(CalibrateApi, SimulateUsesPoseFilmAndScaleOfTheCalibration) {
   EXPECT_EQ(spec["scale"], 2.5);
   EXPECT_EQ(spec["film"], "polygon:film.json");
   EXPECT_EQ(spec["pose"]["translationMm"][1], -2);
+  EXPECT_EQ(spec["pose"]["errorP95Mm"], 0.4) << "the worker warns of an uncertain pose";
+  EXPECT_EQ(spec["pose"]["fromNominalPose"][0], "turn");
+  v1::Job paper;
+  paper.mutable_print_image()->set_simulate_job(job.name());
+  const auto printed = given_spec(file(done(create(paper)), "spec.json"));
+  EXPECT_EQ(printed["pose"]["fromNominalPose"][0], "turn");
   v1::Job twice = simulate_by("calibrations/active");
   twice.mutable_simulate()->set_scale(2.5);
   EXPECT_EQ(refusal(twice).reason(), "SPEC_INVALID");
@@ -302,6 +311,9 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   wanted.mutable_dip()->set_calibration("calibrations/active");
   const v1::Job job = create(wanted);
   EXPECT_EQ(job.dip().calibration(), found.name());
+  EXPECT_TRUE(has(job.dip_status().warnings(0), "from the nominal pose: turn"));
+  EXPECT_TRUE(has(job.dip_status().instruction(), "accept a misplaced print"))
+      << job.dip_status().instruction();
   const v1::Job waiting = ann->guide_to(job.name(), v1::DipStatus::FIND_CONTACT);
   EXPECT_TRUE(has(waiting.dip_status().instruction(), found.name()))
       << waiting.dip_status().instruction();

@@ -193,7 +193,7 @@ void calibrate() {
   file << R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[3,-2,40]},"uncertainty":{)"
        << R"("about_mm":[0,0,40],"covariance_turn_rad_shift_mm":[)" << rows
        << R"(],"error_p50_mm":0.2,"error_p95_mm":0.4,"error_max_mm":0.5},)"
-       << R"("from_nominal_pose":["turn"],"film_frame":{"markers":[)"
+       << R"("from_nominal_pose":["turn"],"symmetries":["any turn"],"film_frame":{"markers":[)"
        << R"({"name":"left","used":true,"rms_mm":0.3,"residual_mm":0.1},)"
        << R"({"name":"near","used":false,"why_not":"hidden"}]},)"
        << R"("water":{"z_mm":0.25,"sigma_mm":0.1},"height_mm":10.5})";

@@ -131,7 +131,7 @@ TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
     simulated_scene::Sight sight;
     sight.time_s = (index - 1) / 30.0;
     sight.gripper_height_mm = scene->water_mm - scene->start_mm;
-    const auto file = image::encode_png({640, 480, (*renderer)->photograph(sight)});
+    const auto file = image::encode_png({640, 480, (*renderer)->photograph(sight, index)});
     return out = std::string(file->begin(), file->end());
   };
   const auto told = frames_of(path("out"));

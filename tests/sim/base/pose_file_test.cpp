@@ -27,6 +27,15 @@ TEST(PoseFile, MissingKeysMeanIdentity) {
   EXPECT_TRUE(read->isApprox(Pose::Identity()));
 }
 
+TEST(PoseFile, ReadsTheStatedErrorOfACalibration) {
+  const testing::TemporaryFolder folder;
+  const auto read = read_pose_file(folder.write(
+      "pose.json", R"({"error_p95_mm": 0.25, "from_nominal_pose": ["shift along x"]})"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->uncertainty.error_p95_mm, 0.25);
+  EXPECT_EQ(read->uncertainty.from_nominal_pose, std::vector<std::string>{"shift along x"});
+}
+
 TEST(PoseFile, InvalidPosesAreRefusedByFileAndKey) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"rotation": [1,0,0,0]})", "rotation: not a known key"},
@@ -37,6 +46,8 @@ TEST(PoseFile, InvalidPosesAreRefusedByFileAndKey) {
       {R"({"translation_mm": [1,2,3,4]})", "translation_mm: not a list of 3"},
       {R"({"translation_mm": [1,2,1e7]})", "translation_mm: a coordinate exceeds"},
       {R"({"translation_mm": [1,2,1e999]})", "pose.json: "},
+      {R"({"error_p95_mm": -1})", "error_p95_mm: not an error"},
+      {R"({"from_nominal_pose": [1]})", "from_nominal_pose: not a list of texts"},
       {R"([1,0,0,0])", "not a pose"},
       {"{\"rotation_wxyz\": [1,0,\n,0]}", "line 2, column 1"},
   };

@@ -287,6 +287,16 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   EXPECT_EQ(row[3 * 21], 0);
 }
 
+TEST_F(PrintImage, AnUncertainPoseIsAWarningBeforeAnythingIsPrinted) {
+  film(blank(118, 118));
+  folder.write("sure.json", R"({"translation_mm": [0, 0, 0], "error_p95_mm": 0.3})");
+  const auto sure = print({"--film", "30x30", "--pose", path("sure.json")});
+  folder.write("unsure.json", R"({"translation_mm": [0, 0, 0], "error_p95_mm": 4})");
+  const auto unsure = print({"--film", "30x30", "--pose", path("unsure.json")});
+  EXPECT_EQ(unsure["warnings"].size(), sure["warnings"].size() + 1);
+  EXPECT_EQ(unsure["warnings"][0]["code"], "pose_uncertain");
+}
+
 TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
   film(blank(827, 1169));
   const Ended ended = testing::run(command({}));

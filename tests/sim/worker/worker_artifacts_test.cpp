@@ -34,6 +34,17 @@ TEST_F(Worker, SimulateWritesTheArtifactsOfTheContract) {
   EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"out", "sphere.obj", "texture.png"}));
 }
 
+TEST_F(Worker, AnUncertainPoseIsTheFirstWarningOfASimulation) {
+  folder.write("pose.json", R"({"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0],
+    "error_p95_mm": 10, "from_nominal_pose": ["shift along x"]})");
+  const Ended ended = testing::run(simulate({"--pose", path("pose.json"), "--model", "stokes"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto report = nlohmann::json::parse(content(out() + "/report.json"));
+  EXPECT_EQ(report["warnings"][0]["code"], "pose_unconstrained");
+  EXPECT_NE(ended.err.find("shift along x"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("calibrate again"), std::string::npos) << ended.err;
+}
+
 TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
   ASSERT_EQ(testing::run(simulate({"--texture", path("texture.png"), "--dpi", "254"})).status, 0);
   const auto film = image::read_image(out() + "/film.png", {});

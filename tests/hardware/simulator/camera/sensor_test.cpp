@@ -23,7 +23,7 @@ struct OverTime {
 OverTime watch(double depth_mm, const Errors& errors, int frames) {
   OverTime out{std::vector<double>(kPixels), std::vector<double>(kPixels)};
   for (int k = 0; k < frames; ++k) {
-    const Frame frame = sense(plane(depth_mm), 1, errors, 7, k / 30.0);
+    const Frame frame = sense(plane(depth_mm), 1, errors, 7, k);
     for (std::size_t i = 0; i < kPixels; ++i) {
       const double off = frame[i] - depth_mm;
       out.mean[i] += off / frames;
@@ -115,7 +115,7 @@ TEST(Sensor, PixelsAreMissingAtEdgesAndNowhereElse) {
     for (int x = 300; x < kWidth_px; ++x) edge[static_cast<std::size_t>(y) * kWidth_px + x] = 700;
   }
   int missing = 0;
-  const Frame frame = sense(edge, 1, {}, 3, 0.5);
+  const Frame frame = sense(edge, 1, {}, 3, 15);
   for (int y = 0; y < kHeight_px; ++y) {
     for (int x = 0; x < kWidth_px; ++x) {
       if (frame[static_cast<std::size_t>(y) * kWidth_px + x] != 0) continue;
@@ -136,10 +136,10 @@ TEST(Sensor, DepthIsScaledAndNotMeasuredOutOfRange) {
 }
 
 TEST(Sensor, TheSameSeedAndTimeGiveTheSameBits) {
-  const Frame frame = sense(plane(800), 1, {}, 5, 1.25);
-  EXPECT_EQ(frame, sense(plane(800), 1, {}, 5, 1.25));
-  EXPECT_NE(frame, sense(plane(800), 1, {}, 6, 1.25));
-  EXPECT_NE(frame, sense(plane(800), 1, {}, 5, 1.25 + 1.0 / 30));
+  const Frame frame = sense(plane(800), 1, {}, 5, 37);
+  EXPECT_EQ(frame, sense(plane(800), 1, {}, 5, 37));
+  EXPECT_NE(frame, sense(plane(800), 1, {}, 6, 37));
+  EXPECT_NE(frame, sense(plane(800), 1, {}, 5, 38));
 }
 
 }  // namespace

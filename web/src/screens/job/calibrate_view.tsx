@@ -1,13 +1,13 @@
 import { useEffect, useState } from 'preact/hooks';
 import { calibrations as api } from '../../api/services';
 import type { Calibration, Job } from '../../api/types';
-import { warningsOf } from '../../model/report';
 import { formatMm } from '../../model/units';
 import { Figures } from '../../ui/controls';
 import { staleness } from '../new_print/calibration';
 import { numberOf } from '../../ui/job_text';
 import { Files, Pictures } from './files';
 import type { Results } from './results';
+import { WarningLines } from './warning_lines';
 
 /** Results of a calibration job: the measured pose and its error, or the camera calibration. */
 export function CalibrateView({ job, results }: { job: Job; results: Results }) {
@@ -25,11 +25,7 @@ export function CalibrateView({ job, results }: { job: Job; results: Results }) 
       </div>
       <div>
         {found && <Found calibration={found} />}
-        {warningsOf(results.report.value).map((warning) => (
-          <p class="warning" key={warning.code}>
-            {warning.message}
-          </p>
-        ))}
+        <WarningLines results={results} />
       </div>
     </div>
   );
@@ -64,9 +60,9 @@ function Found({ calibration }: { calibration: Calibration }) {
           ]}
         />
       )}
-      {(calibration.fromNominalPose ?? []).map((text) => (
+      {(calibration.symmetries ?? []).map((text) => (
         <p class="quiet" key={text}>
-          Not visible in the scan, taken from the nominal pose: {text}
+          Not measured, because it does not move the surface: {text}
         </p>
       ))}
       {(calibration.markers ?? []).length > 0 && <Markers markers={calibration.markers!} />}

@@ -16,6 +16,7 @@ import { DipView } from './dip_view';
 import { Files, Pictures } from './files';
 import { Results } from './results';
 import { SimulateView } from './simulate_view';
+import { WarningLines } from './warning_lines';
 
 export function JobScreen({ name }: { name: string }) {
   useEffect(() => void refresh(name), [name, beginnings.value]);
@@ -237,6 +238,7 @@ function Body({ job, results }: { job: Job; results: Results }) {
     default:
       return (
         <>
+          <WarningLines results={results} />
           <Files results={results} />
           <Pictures results={results} />
         </>

@@ -127,7 +127,7 @@ function Warnings(props: {
       {warnings.length === 0 && <p>None. The print should look as predicted.</p>}
       <ul class="warnings">
         {warnings.map((warning) => (
-          <li key={warning.code + warning.where}>
+          <li key={warning.code + warning.where + warning.message}>
             <button
               type="button"
               class="plain"

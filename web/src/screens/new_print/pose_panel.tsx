@@ -47,6 +47,11 @@ function Measured() {
           `. For 95 % of the surface, the error of this pose is at most ${formatMm(calibration.errorP95Mm, 2)}`}
         .
       </p>
+      {(calibration.warnings ?? []).map((warning) => (
+        <p class="warning" key={warning}>
+          {warning}
+        </p>
+      ))}
       {why && (
         <p class="warning">
           This calibration is no longer valid: {why}. Calibrate again, or enter the pose manually.

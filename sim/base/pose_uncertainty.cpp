@@ -1,0 +1,33 @@
+#include "sim/base/pose_uncertainty.h"
+
+#include <fmt/format.h>
+
+namespace hydroprint {
+namespace {
+
+constexpr const char* kRemedy =
+    "Turn the object so that the camera sees more of its features, or move the camera, and "
+    "calibrate "
+    "again";
+
+}  // namespace
+
+Warnings pose_warnings(const PoseUncertainty& uncertainty, const std::string& where) {
+  Warnings out;
+  for (const std::string& motion : uncertainty.from_nominal_pose)
+    out.push_back({"pose_unconstrained",
+                   fmt::format("the scan does not determine this part of the pose, so it is taken "
+                               "from the nominal pose: {}. {}",
+                               motion, kRemedy),
+                   where});
+  const bool is_stated = uncertainty.error_p95_mm && out.empty();
+  if (is_stated && !(*uncertainty.error_p95_mm <= kMostPoseError_mm))
+    out.push_back({"pose_uncertain",
+                   fmt::format("the pose may be wrong by {:.1f} mm on the surface, more than {:g} "
+                               "mm, so the print may be misplaced. {}",
+                               *uncertainty.error_p95_mm, kMostPoseError_mm, kRemedy),
+                   where});
+  return out;
+}
+
+}  // namespace hydroprint
