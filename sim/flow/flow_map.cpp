@@ -1,6 +1,7 @@
 #include "sim/flow/flow_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,9 +20,13 @@ void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
                      const std::vector<Vector2d>& film_mm, SurfaceMap& map) {
   HP_CHECK(film_mm.size() == body.points_mm.size());
   HP_CHECK(map.contact_time_s.size() == surface.points.size());
-  const std::vector<Gradient> gradient = point_gradients(film_mm, body.points_mm, body.triangles);
+  std::vector<std::array<Vector2d, 3>> corners;
+  corners.reserve(body.triangles.size());
+  for (const Eigen::Vector3i& t : body.triangles)
+    corners.push_back({film_mm[t[0]], film_mm[t[1]], film_mm[t[2]]});
+  const auto stretches = point_stretch(corners, body.points_mm, body.triangles);
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
-    const Stretch stretch = stretch_of(gradient[surface.weld[v]]);
+    const Stretch& stretch = stretches[surface.weld[v]];
     const bool is_known = std::isfinite(stretch.most) && std::isfinite(map.contact_time_s[v]);
     map.stretch.push_back(is_known ? stretch.most : kNaN);
     map.least_stretch.push_back(is_known ? stretch.least : kNaN);

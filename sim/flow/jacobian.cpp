@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "sim/base/check.h"
 
@@ -14,6 +15,27 @@ namespace {
 /// A triangle with a smaller stretch than this lies across a jump of the map. At 170 degrees, where
 /// eq. (1) is clamped, a sphere compresses the film to cos(85 deg) = 0.087.
 constexpr double kLeastStretch = 0.05;
+
+using FilmCorners = std::array<Eigen::Vector2d, 3>;
+using SurfaceCorners = std::array<Eigen::Vector3d, 3>;
+
+SurfaceCorners corners_of(const Eigen::Vector3i& triangle,
+                          const std::vector<Eigen::Vector3d>& points_mm) {
+  return {points_mm[triangle[0]], points_mm[triangle[1]], points_mm[triangle[2]]};
+}
+
+/// Returns the gradient on a triangle; nullopt if it has a NaN corner or no area, if the film is
+/// upside down there, or if it lies across a jump of the map.
+std::optional<Gradient> usable_gradient(const FilmCorners& film_mm,
+                                        const SurfaceCorners& surface_mm) {
+  const Eigen::Vector2d u = film_mm[1] - film_mm[0];
+  const Eigen::Vector2d v = film_mm[2] - film_mm[0];
+  // The film touches the surface from outside, so orientation on the film is reversed.
+  if (!(u.x() * v.y() - u.y() * v.x() < 0)) return {};
+  const Gradient gradient = gradient_of(film_mm, surface_mm);
+  if (gradient.isZero() || stretch_of(gradient).least < kLeastStretch) return {};
+  return gradient;
+}
 
 }  // namespace
 
@@ -47,23 +69,42 @@ std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_m
   std::vector<Gradient> sum(surface_mm.size(), Gradient::Zero());
   std::vector<double> weight(surface_mm.size(), 0);
   for (const Eigen::Vector3i& t : triangles) {
-    const Eigen::Vector2d u = film_mm[t[1]] - film_mm[t[0]];
-    const Eigen::Vector2d v = film_mm[t[2]] - film_mm[t[0]];
-    // The film touches the surface from outside, so orientation on the film is reversed.
-    if (!(u.x() * v.y() - u.y() * v.x() < 0)) continue;
-    const Eigen::Vector3d& origin = surface_mm[t[0]];
-    const double area = (surface_mm[t[1]] - origin).cross(surface_mm[t[2]] - origin).norm();
-    const Gradient gradient = gradient_of({film_mm[t[0]], film_mm[t[1]], film_mm[t[2]]},
-                                          {origin, surface_mm[t[1]], surface_mm[t[2]]});
-    if (stretch_of(gradient).least < kLeastStretch) continue;
+    const SurfaceCorners corners = corners_of(t, surface_mm);
+    const auto gradient = usable_gradient({film_mm[t[0]], film_mm[t[1]], film_mm[t[2]]}, corners);
+    if (!gradient) continue;
+    const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
     for (const int corner : t) {
-      sum[corner] += area * gradient;
+      sum[corner] += area * *gradient;
       weight[corner] += area;
     }
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t p = 0; p < sum.size(); ++p) {
     sum[p] = weight[p] > 0 ? Gradient(sum[p] / weight[p]) : Gradient::Constant(nan);
+  }
+  return sum;
+}
+
+std::vector<Stretch> point_stretch(const std::vector<FilmCorners>& film_mm,
+                                   const std::vector<Eigen::Vector3d>& surface_mm,
+                                   const std::vector<Eigen::Vector3i>& triangles) {
+  HP_CHECK(film_mm.size() == triangles.size());
+  std::vector<Stretch> sum(surface_mm.size());
+  std::vector<int> count(surface_mm.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto gradient = usable_gradient(film_mm[t], corners_of(triangles[t], surface_mm));
+    if (!gradient) continue;
+    const Stretch here = stretch_of(*gradient);
+    for (const int corner : triangles[t]) {
+      sum[corner].most += here.most;
+      sum[corner].least += here.least;
+      ++count[corner];
+    }
+  }
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < sum.size(); ++p) {
+    sum[p] = count[p] > 0 ? Stretch{sum[p].most / count[p], sum[p].least / count[p]}
+                          : Stretch{infinite, infinite};
   }
   return sum;
 }

@@ -33,4 +33,14 @@ struct Stretch {
                                                     const std::vector<Eigen::Vector3d>& surface_mm,
                                                     const std::vector<Eigen::Vector3i>& triangles);
 
+/// Computes the stretch at each point as section 6 of the paper defines it: the singular values on
+/// each triangle, where the Jacobian is constant (eq. 6), and then their mean over the triangles
+/// around the point.
+/// @param film_mm  the film's points at the corners of each triangle. The triangles that
+///                 point_gradients() ignores are ignored
+/// @return infinite at points without a triangle
+[[nodiscard]] std::vector<Stretch> point_stretch(
+    const std::vector<std::array<Eigen::Vector2d, 3>>& film_mm,
+    const std::vector<Eigen::Vector3d>& surface_mm, const std::vector<Eigen::Vector3i>& triangles);
+
 }  // namespace hydroprint::flow

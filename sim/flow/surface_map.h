@@ -11,7 +11,7 @@ namespace hydroprint::flow {
 struct SurfaceMap {
   std::vector<Eigen::Vector2d> film_mm;  ///< the point of the film, in F at rest, that lands here
   std::vector<double> contact_time_s;    ///< since the start of the dip
-  /// Largest singular value of the film-to-surface Jacobian (section 6).
+  /// Largest singular value of the film-to-surface Jacobian (section 6); see point_stretch().
   std::vector<double> stretch;
   std::vector<double> least_stretch;  ///< the smaller singular value
 };

@@ -100,5 +100,49 @@ TEST(PointGradients, IgnoreUnreachedAndInvertedTriangles) {
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
 }
 
+/// Three faces of a cube around one corner, each mapped to the film by a rotation of its own.
+struct Corner {
+  std::vector<Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::vector<Eigen::Vector3i> faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
+  std::vector<std::array<Vector2d, 3>> film;
+
+  Corner() {
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const double turn = 0.4 + 1.3 * static_cast<double>(k);
+      const Eigen::Rotation2Dd rotation(turn);
+      // Seen from above, the film's corners are clockwise.
+      film.push_back({Vector2d(5, 5), 5 * Vector2d::Ones() + rotation * Vector2d(0, 1),
+                      5 * Vector2d::Ones() + rotation * Vector2d(1, 0)});
+    }
+  }
+};
+
+TEST(PointStretch, OfFilmBentAroundEdgesAndCornersIsOne) {
+  const Corner corner;
+  for (const Stretch& s : point_stretch(corner.film, corner.points, corner.faces)) {
+    EXPECT_NEAR(s.most, 1, 1e-6);
+    EXPECT_NEAR(s.least, 1, 1e-6);
+  }
+}
+
+TEST(PointStretch, IsTheMeanOverTheTrianglesAroundAPoint) {
+  Corner corner;
+  for (Vector2d& p : corner.film[0]) p /= 2;  // film stretched twofold
+  const auto stretch = point_stretch(corner.film, corner.points, corner.faces);
+  EXPECT_NEAR(stretch[0].most, (2 + 1 + 1) / 3.0, 1e-9);
+  EXPECT_NEAR(stretch[1].most, (2 + 1) / 2.0, 1e-9);
+  EXPECT_NEAR(stretch[3].most, 1, 1e-9);
+}
+
+TEST(PointStretch, IsInfiniteWithoutATriangle) {
+  Corner corner;
+  corner.film[0][0].x() = std::numeric_limits<double>::quiet_NaN();
+  std::swap(corner.film[1][1], corner.film[1][2]);  // upside down
+  const auto stretch = point_stretch(corner.film, corner.points, corner.faces);
+  EXPECT_TRUE(std::isinf(stretch[2].most));
+  EXPECT_TRUE(std::isinf(stretch[2].least));
+  EXPECT_NEAR(stretch[1].most, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace hydroprint::flow
