@@ -603,6 +603,18 @@ TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
+TEST_F(Cli, SubmitPrintsTheWarningsOfTheReport) {
+  start();
+  const std::string warned = mesh("warn the film tears");
+  const Outcome ended = client({"submit", "simulate", "--mesh", warned, "--wait"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("hydroprint: warning: the film tears\n"), std::string::npos)
+      << ended.err;
+  const Outcome silent = client({"submit", "simulate", "--mesh", mesh("sleep 0"), "--wait"});
+  EXPECT_EQ(silent.status, 0) << silent.err;
+  EXPECT_EQ(silent.err.find("warning"), std::string::npos) << silent.err;
+}
+
 /// Fixture with a folder of frames like those of hydroprint-capture, for the fake worker.
 class CalibrateCli : public Cli {
  protected:

@@ -1,5 +1,3 @@
-#include <stdlib.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -9,6 +7,7 @@
 
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/json.h"
+#include "client/cli/job_io/scratch_folder.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 
@@ -25,23 +24,6 @@ struct DownloadOptions {
 std::string default_folder(const std::string& job) {
   return "job-" + job.substr(job.find('/') + 1);
 }
-
-// A new temporary folder, which the destructor deletes.
-class ScratchFolder {
- public:
-  ScratchFolder() { ::mkdtemp(path_.data()); }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_ = std::filesystem::temp_directory_path() / "hydroprint-XXXXXX";
-};
 
 // All bytes are checked before the first one is printed.
 Status print_artifact(Program& program, const std::string& job, const DownloadOptions& options) {

@@ -3,7 +3,11 @@
 #include <iostream>
 #include <vector>
 
+#include "client/artifacts.h"
 #include "client/cli/format/json.h"
+#include "client/cli/job_io/scratch_folder.h"
+#include "client/cli/terminal/console.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::cli {
 
@@ -44,6 +48,22 @@ Status finish_job(Program& program, const v1::Job& job, const FinishOptions& opt
   Json json = to_json(ended);
   if (!options.out.empty()) json["files"] = files_json(files);
   print(json);
+  return {};
+}
+
+Status tell_warnings(Program& program, const std::string& job) {
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_artifacts(program.daemon(), job));
+  for (const v1::Artifact& artifact : list.artifacts()) {
+    if (client::file_name(artifact) != "report.json") continue;
+    const ScratchFolder scratch;
+    HP_ASSIGN_OR_RETURN(const auto file,
+                        client::download(program.daemon(), artifact, scratch.path()));
+    const auto report = read_json_file(file);
+    if (!report) return {};  // the job succeeded all the same
+    for (const auto& warning : json_at(*report, "warnings"))
+      std::cerr << "hydroprint: warning: "
+                << printable(json_string(warning, "message").value_or("")) << std::endl;
+  }
   return {};
 }
 

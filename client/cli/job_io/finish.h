@@ -28,4 +28,8 @@ void tell_valid(const Program& program, const v1::Job& job);
 /// say.
 [[nodiscard]] Status finish_job(Program& program, const v1::Job& job, const FinishOptions& options);
 
+/// Prints the warnings in the report of a job that succeeded to standard error; nothing if it has
+/// no report.
+[[nodiscard]] Status tell_warnings(Program& program, const std::string& job);
+
 }  // namespace hydroprint::cli

@@ -17,6 +17,7 @@
 //   socket          reports whether it could open a socket
 //   kill-parent     reports whether it could kill the daemon
 //   hurry           reports whether it could raise its priority
+//   warn WORDS      makes report.json an object with this warning
 //   read FILE       reports whether it could read the file
 //   write FILE      reports whether it could write the file
 //
@@ -47,6 +48,7 @@ namespace {
 std::map<std::string, std::string> flags;
 nlohmann::json spec;
 std::string facts;
+std::string warning;
 bool is_garbage = false;
 
 /// Name of a file from the spec; for jobs stored without a spec, from the worker's flags. Empty if
@@ -116,6 +118,8 @@ void execute(const std::string& line) {
     std::getline(words >> std::ws, rest);
     std::cerr << rest << std::endl;
     std::_Exit(status);
+  } else if (command == "warn") {
+    std::getline(words >> std::ws, warning);
   } else if (command == "crash") {
     std::abort();
   } else if (command == "eat") {
@@ -259,6 +263,10 @@ int main(int argc, char** argv) {
   }
   std::ofstream(flags["--out"] + "/film.png") << "film of " << file_of("mesh");
   std::ofstream report(flags["--out"] + "/report.json");
+  if (!warning.empty()) {
+    report << nlohmann::json{{"warnings", {{{"code", "fake"}, {"message", warning}}}}};
+    return 0;
+  }
   for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
   report << facts << '\n' << spec << '\n';
 }

@@ -18,16 +18,16 @@ export function CalibrateView({ job, results }: { job: Job; results: Results }) 
     });
   }, [job.name]);
   return (
-    <div class="columns">
-      <div>
-        <Pictures results={results} />
-        <Files results={results} />
+    <>
+      <WarningLines results={results} />
+      <div class="columns">
+        <div>
+          <Pictures results={results} />
+          <Files results={results} />
+        </div>
+        <div>{found && <Found calibration={found} />}</div>
       </div>
-      <div>
-        {found && <Found calibration={found} />}
-        <WarningLines results={results} />
-      </div>
-    </div>
+    </>
   );
 }
 
