@@ -2,6 +2,7 @@
 
 #include "daemon/jobs/spec_files.h"
 #include "daemon/platform/resource_names.h"
+#include "sim/base/pose_uncertainty.h"
 
 namespace hydroprint::daemon {
 
@@ -22,6 +23,9 @@ Result<v1::Calibration> check_calibration(const v1::Calibration& entered) {
                                                       : entered.display_name());
   *out.mutable_mesh() = entered.mesh();
   *out.mutable_pose() = entered.pose();
+  out.mutable_pose()->clear_error_p95_mm();
+  out.mutable_pose()->clear_from_nominal_pose();
+  set_uncertainty(uncertainty_of(entered.pose()), out);
   out.set_scale(entered.scale() == 0 ? 1 : entered.scale());
   out.set_film(entered.film());
   *out.mutable_covariance() = entered.covariance();

@@ -23,7 +23,7 @@ std::string markers_text(const v1::Calibration& c) {
 
 std::string object_text(const v1::Calibration& c) {
   std::string out;
-  if (c.has_error_p95_mm())
+  if (c.has_error_max_mm())
     out += fmt::format(
         "  surface position error: {:.2f} mm for 95 % of the surface, at most {:.2f} mm\n",
         c.error_p95_mm(), c.error_max_mm());

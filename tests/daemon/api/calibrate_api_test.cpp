@@ -367,7 +367,10 @@ TEST_F(CalibrateApi, CalibrationCanBeEnteredByHand) {
   EXPECT_EQ(reason_of(enter()), "SPEC_INVALID") << "a calibration without a pose is refused";
   for (const double x : {1.0, 0.0, 0.0, 0.0}) entered.mutable_pose()->add_rotation_wxyz(x);
   for (const double x : {1.0, 2.0, 0.0}) entered.mutable_pose()->add_translation_mm(x);
+  entered.mutable_pose()->set_error_p95_mm(3);  // as in the pose file of a calibration elsewhere
   ASSERT_TRUE(enter().ok());
+  EXPECT_EQ(made.error_p95_mm(), 3);
+  EXPECT_EQ(made.warnings_size(), 1);
   EXPECT_EQ(made.job(), "") << "read-only fields are ignored";
   EXPECT_TRUE(made.active());
   EXPECT_EQ(made.scale(), 1);
