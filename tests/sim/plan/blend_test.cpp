@@ -89,6 +89,17 @@ TEST(Blend, ShellsCloseToEachOtherDoNotBlend) {
   EXPECT_EQ(blend.at({-1, 0, 0.5})[1], 1);
 }
 
+TEST(Blend, SheetsThatTouchInOnePointDoNotBlend) {
+  const auto surface = surface_of(
+      testing::together({testing::rectangle({-20, -20, 0}, {20, 0, 0}, {0, 20, 0}, 10, 10),
+                         testing::rectangle({0, 0, 0}, {20, 0, 0}, {0, 20, 0}, 10, 10)}),
+      3);
+  const Blend blend(surface, testing::two_dips(surface, {1, 1, 0}));
+  EXPECT_EQ(blend.at({0.5, 0.4, 0})[0], 1);
+  EXPECT_EQ(blend.at({-0.5, -0.4, 0})[1], 1);
+  EXPECT_TRUE(blend.regions.seam.empty());
+}
+
 TEST(Blend, CrossesAnEdgeOfThreeSheets) {
   std::vector<mesh::Model> sheets;
   for (const double angle : {0.0, 2.0, 4.0})

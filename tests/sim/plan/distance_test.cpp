@@ -43,7 +43,9 @@ void expect_exact(const mesh::Surface& surface, const Stretch& stretch, int coun
       }
       const double distance = (1 - weight / w[std::size_t(own_dip - 1)]) * kWidthMm;
       worst_mm = std::max(worst_mm, std::abs(distance - reference));
-      EXPECT_NEAR(distance, reference, 0.05) << point.place.transpose();
+      EXPECT_GT(distance, reference - 0.05) << point.place.transpose();
+      // The reference has fewer sources, so it is never shorter.
+      EXPECT_LT(distance, reference + 1e-6) << point.place.transpose();
     }
     if (compared >= count) break;
   }
@@ -97,7 +99,7 @@ TEST(Distance, IsGeodesicOnARealModel) {
   };
   const auto stretch = testing::stretch_of(
       surface, {facing({1, 0.2, 0}), facing({-0.6, 0.8, 0.1}), facing({0, -0.3, -1})});
-  expect_exact(surface, stretch, 150);
+  expect_exact(surface, stretch, 600);
 }
 
 }  // namespace
