@@ -11,7 +11,7 @@
 namespace hydroprint::plan {
 
 /// Default width over which a dip's colour fades beyond its region; the paper's H.
-inline constexpr double kBlendMm = 5;
+inline constexpr double kBlend_mm = 5;
 
 /// How much of the colour of each point each dip prints (eq. 7 of the paper, normalised).
 /// w_k = t_k / (t_1 + ... + t_K) with t_k = f(d_k) min(1, e_k / H), where f = 1 in the region of
@@ -44,7 +44,7 @@ class BlendWeights {
                                                                    const Context& context) const;
 
  private:
-  double blend_mm_ = kBlendMm;
+  double blend_mm_ = kBlend_mm;
   Fragments fragments_;
   std::vector<DistanceField> distance_;  ///< per dip: from its region
   std::vector<DistanceField> reach_;     ///< per dip: from the end of its reach

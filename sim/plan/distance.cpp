@@ -34,7 +34,7 @@ bool passes(const Window& window, const SideFrame& side, const Eigen::Vector2d& 
   const double rise = side.inward.dot(ray);
   const double x =
       side.along.dot(p - side.origin) - (rise > 0 ? height / rise * side.along.dot(ray) : 0);
-  return x >= window.from_mm - kPlaceToleranceMm && x <= window.to_mm + kPlaceToleranceMm;
+  return x >= window.from_mm - kPlaceTolerance_mm && x <= window.to_mm + kPlaceTolerance_mm;
 }
 
 template <class Item, class TriangleOf>
@@ -74,7 +74,7 @@ class SourceStarts {
     for (std::size_t i = 0; i < ends_.size();) {
       std::size_t end = i + 1;
       while (end < ends_.size() && ends_[end].edge == ends_[i].edge &&
-             ends_[end].x_mm - ends_[i].x_mm < kPlaceToleranceMm)
+             ends_[end].x_mm - ends_[i].x_mm < kPlaceTolerance_mm)
         ++end;
       start_on_edge(std::span(ends_).subspan(i, end - i));
       i = end;
@@ -87,7 +87,7 @@ class SourceStarts {
     const auto& corners = facets_.corners(triangle);
     for (int c = 0; c < 3; ++c) {
       const double distance = (at - corners[static_cast<std::size_t>(c)]).norm();
-      if (distance > kPlaceToleranceMm) continue;
+      if (distance > kPlaceTolerance_mm) continue;
       paths_.start_at_vertex(facets_.vertex(3 * triangle + c), distance);
       return;
     }
@@ -99,7 +99,7 @@ class SourceStarts {
 
   bool add_edge_end(int side, const Eigen::Vector2d& at, const Eigen::Vector2d& away) {
     const SideFrame frame = facets_.frame(side);
-    if (std::abs(frame.inward.dot(at - frame.origin)) > kPlaceToleranceMm) return false;
+    if (std::abs(frame.inward.dot(at - frame.origin)) > kPlaceTolerance_mm) return false;
     const double x = frame.along.dot(at - frame.origin);
     const Eigen::Vector2d direction(frame.along.dot(away), frame.inward.dot(away));
     const std::size_t edge = facets_.edge(side);

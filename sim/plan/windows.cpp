@@ -62,7 +62,7 @@ double corner_angle(const Facets& facets, int corner) {
 
 /// Returns true if a side contains the point.
 bool is_on(const SideFrame& frame, const Eigen::Vector2d& p) {
-  return std::abs(frame.inward.dot(p - frame.origin)) < kPlaceToleranceMm;
+  return std::abs(frame.inward.dot(p - frame.origin)) < kPlaceTolerance_mm;
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ void Propagation::start_at(const PointSource& source) {
     for (const auto& segment : source.segments) {
       if (!x) break;
       const auto behind = [&](double at) {
-        return kPlaceToleranceMm - segment.dot(frame.point(at) - source.at);
+        return kPlaceTolerance_mm - segment.dot(frame.point(at) - source.at);
       };
       x = clip_interval(*x, behind(x->from), behind(x->to));
     }
@@ -214,7 +214,7 @@ void Propagation::traverse(Window window) {
   // Distances of the apex from the rays, positive within the beam.
   const double from_left = cross_product(apex - left, left_ray) / left_ray.norm();
   const double from_right = cross_product(right_ray, apex - right) / right_ray.norm();
-  if (from_left >= -kPlaceToleranceMm && from_right >= -kPlaceToleranceMm)
+  if (from_left >= -kPlaceTolerance_mm && from_right >= -kPlaceTolerance_mm)
     improve(facets_.vertex(left_side), window.distance(apex));
 
   const SideFrame left_frame = facets_.frame(left_side);  // runs from the apex

@@ -101,6 +101,6 @@ class Propagation {
 };
 
 /// Tolerance for places, mm: paths that miss a window or a vertex by less still count.
-inline constexpr double kPlaceToleranceMm = 1e-7;
+inline constexpr double kPlaceTolerance_mm = 1e-7;
 
 }  // namespace hydroprint::plan

@@ -21,7 +21,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A surface with its weights.
 struct Blend {
-  Blend(mesh::Surface surface_, const Stretch& stretch, double blend_mm = kBlendMm)
+  Blend(mesh::Surface surface_, const Stretch& stretch, double blend_mm = kBlend_mm)
       : surface(std::move(surface_)),
         regions(make_regions(surface, stretch, {}, {}).value()),
         weights(BlendWeights::create(surface, regions, blend_mm, {}).value()) {}
@@ -38,7 +38,7 @@ struct Blend {
 
 /// Weight of the nearer of two dips at a distance from the seam.
 double own_weight(double distance_mm) {
-  return 1 / (1 + std::max(0.0, 1 - distance_mm / kBlendMm));
+  return 1 / (1 + std::max(0.0, 1 - distance_mm / kBlend_mm));
 }
 
 TEST(Blend, FallsOverTheWidthOnBothSidesOfTheEquator) {

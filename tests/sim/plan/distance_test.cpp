@@ -19,12 +19,12 @@ namespace {
 
 using testing::surface_of;
 
-constexpr double kWidthMm = 5;
+constexpr double kWidth_mm = 5;
 
 /// Compares the distances of up to `count` random points that lie within the band.
 void expect_exact(const mesh::Surface& surface, const Stretch& stretch, int count) {
   const auto regions = make_regions(surface, stretch, {}, {}).value();
-  const auto weights = BlendWeights::create(surface, regions, kWidthMm, {}).value();
+  const auto weights = BlendWeights::create(surface, regions, kWidth_mm, {}).value();
   int compared = 0;
   double worst_mm = 0;
   for (const auto& point : testing::random_points(surface, 400 * count, 3)) {
@@ -35,13 +35,13 @@ void expect_exact(const mesh::Surface& surface, const Stretch& stretch, int coun
       const double weight = w[std::size_t(dip - 1)];
       if (dip == own_dip || (weight == 0 && compared % 7 != 6)) continue;
       const double reference =
-          testing::reference_distance(surface, regions, dip, point, kWidthMm + 0.2);
+          testing::reference_distance(surface, regions, dip, point, kWidth_mm + 0.2);
       ++compared;
       if (weight == 0) {
-        EXPECT_GT(reference, kWidthMm - 0.05);
+        EXPECT_GT(reference, kWidth_mm - 0.05);
         continue;
       }
-      const double distance = (1 - weight / w[std::size_t(own_dip - 1)]) * kWidthMm;
+      const double distance = (1 - weight / w[std::size_t(own_dip - 1)]) * kWidth_mm;
       worst_mm = std::max(worst_mm, std::abs(distance - reference));
       EXPECT_GT(distance, reference - 0.05) << point.place.transpose();
       // The reference has fewer sources, so it is never shorter.
