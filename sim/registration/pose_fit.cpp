@@ -76,8 +76,8 @@ struct Split {
 ///                    errors are weak. Directions without any information are always weak
 Split split(const Normals& normals, const Directions& free, double weak_sigma_mm,
             std::optional<Eigen::Index> weak_count = {}) {
-  const Eigen::MatrixXd information = free.transpose() * normals.information * free;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(free.transpose() *
+                                                              normals.information * free);
   const Eigen::Index count = free.cols();
   Split out{free * solver.eigenvectors(), solver.eigenvalues(), UpToSix::Zero(count), {}};
   const double nil = kNil * std::max(1.0, out.information.maxCoeff());
