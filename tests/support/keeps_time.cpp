@@ -30,6 +30,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kTry = "HYDROPRINT_TEST_TRY";
 constexpr const char* kLate_ms = "HYDROPRINT_TEST_LATE_MS";  // smallest delay of the tries before
 constexpr int kTries = 3;
+/// Between late tries, because delays come in phases, such as while the kernel writes files back.
+constexpr std::chrono::seconds kPause(10);
 // Largest delay of a machine that keeps time; less than the tolerance of any of these tests.
 constexpr double kTolerated_s = 0.02;
 constexpr int kWatchedProcessors = 8;
@@ -195,6 +197,7 @@ int main(int argc, char** argv) {
               << " tries" << std::endl;
     return result;
   }
+  std::this_thread::sleep_for(next * kPause);
   ::setenv(kTry, std::to_string(next).c_str(), 1);
   ::setenv(kLate_ms, std::to_string(least_ms).c_str(), 1);
   ::execv(argv[0], again.data());
