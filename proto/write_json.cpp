@@ -9,8 +9,9 @@ namespace hydroprint {
 
 namespace pb = google::protobuf;
 
-Result<std::string> write_json(const pb::Message& message) {
-  pb::util::JsonPrintOptions options;
+namespace {
+
+Result<std::string> write(const pb::Message& message, pb::util::JsonPrintOptions options) {
   options.always_print_primitive_fields = true;
   std::string text;
   const auto status = pb::util::MessageToJsonString(message, &text, options);
@@ -19,6 +20,17 @@ Result<std::string> write_json(const pb::Message& message) {
                                      one_line(status.message().ToString()));
   }
   return text;
+}
+
+}  // namespace
+
+Result<std::string> write_json(const pb::Message& message) { return write(message, {}); }
+
+Result<std::string> json_file_of(const pb::Message& message) {
+  pb::util::JsonPrintOptions options;
+  options.add_whitespace = true;
+  options.preserve_proto_field_names = true;
+  return write(message, options);
 }
 
 }  // namespace hydroprint

@@ -16,4 +16,8 @@ namespace hydroprint {
 /// Returns kInternal for a message without a JSON form, such as an Any of unknown type.
 [[nodiscard]] Result<std::string> write_json(const google::protobuf::Message& message);
 
+/// Returns a message as the text of a JSON file: indented, field names as in the .proto file, other
+/// values as in write_json(). Same error.
+[[nodiscard]] Result<std::string> json_file_of(const google::protobuf::Message& message);
+
 }  // namespace hydroprint

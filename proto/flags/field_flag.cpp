@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <vector>
 
+#include "hydroprint/v1/field_rules.pb.h"
 #include "proto/rules/field_rules.h"
+#include "sim/base/check.h"
 
 namespace hydroprint::flags {
 namespace {
 
+using google::protobuf::Descriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
@@ -116,6 +119,37 @@ CLI::Option* add_option(CLI::App& command, Message& spec, const FieldDescriptor&
 }  // namespace
 
 std::string flag_of(const FieldDescriptor& field) { return "--" + rules::flag_of(field); }
+
+bool is_flat(const FieldDescriptor& field) {
+  const v1::FieldRules* const rules = rules::rules_of(field);
+  return rules != nullptr && rules->flat();
+}
+
+std::vector<const FieldDescriptor*> fields_of(const Descriptor& spec) {
+  std::vector<const FieldDescriptor*> out;
+  for (int i = 0; i < spec.field_count(); ++i) {
+    const FieldDescriptor& field = *spec.field(i);
+    if (is_flat(field)) {
+      const auto inner = fields_of(*field.message_type());
+      out.insert(out.end(), inner.begin(), inner.end());
+    } else {
+      out.push_back(&field);
+    }
+  }
+  return out;
+}
+
+Message& holder_of(Message& spec, const FieldDescriptor& field) {
+  const Descriptor& type = *spec.GetDescriptor();
+  if (field.containing_type() == &type) return spec;
+  for (int i = 0; i < type.field_count(); ++i) {
+    const FieldDescriptor& flat = *type.field(i);
+    if (is_flat(flat) && flat.message_type() == field.containing_type())
+      return *spec.GetReflection()->MutableMessage(&spec, &flat);
+  }
+  HP_CHECK(false && "a field of another spec");
+  return spec;
+}
 
 CLI::Option* add_field(CLI::App& command, Message& spec, const FieldDescriptor& field,
                        const ReadText& read) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "sim/base/checked_json.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kMaxTranslation_mm = 1e6;
 constexpr double kMinQuaternion = 1e-6;
+constexpr double kUnitTolerance = 1e-3;
 
 template <int size>
 Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
@@ -70,6 +72,17 @@ Pose PoseFile::pose() const {
   pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   pose.translation() = translation_mm;
   return pose;
+}
+
+bool is_unit(const Eigen::Vector4d& rotation_wxyz) {
+  return std::abs(rotation_wxyz.stableNorm() - 1) <= kUnitTolerance;
+}
+
+std::string not_unit_problem(const Eigen::Vector4d& rotation_wxyz) {
+  return fmt::format(
+      "the quaternion has length {:.4g} instead of 1, so it may not be the rotation that is meant. "
+      "Divide its numbers by its length",
+      rotation_wxyz.stableNorm());
 }
 
 Result<PoseFile> read_pose_file(const std::filesystem::path& path) {

@@ -20,6 +20,19 @@ struct PoseFile {
   [[nodiscard]] Pose pose() const;
 };
 
+/// Returns whether a quaternion has length one, to 0.001.
+[[nodiscard]] bool is_unit(const Eigen::Vector4d& rotation_wxyz);
+/// Returns what is wrong with a quaternion that is_unit() refuses, with the remedy.
+[[nodiscard]] std::string not_unit_problem(const Eigen::Vector4d& rotation_wxyz);
+
+/// Sets the fields of a pose message, which has none of them yet.
+template <class Message>
+void set_pose(const PoseFile& file, Message& pose) {
+  pose.mutable_rotation_wxyz()->Add(file.rotation_wxyz.begin(), file.rotation_wxyz.end());
+  pose.mutable_translation_mm()->Add(file.translation_mm.begin(), file.translation_mm.end());
+  set_uncertainty(file.uncertainty, pose);
+}
+
 /// Reads {"rotation_wxyz": [w, x, y, z], "translation_mm": [x, y, z]}, and the "error_p95_mm" and
 /// "from_nominal_pose" of a calibration; all keys are optional. The quaternion is normalised.
 /// Returns an error with file and key for unknown keys, lists of the wrong length, coordinates

@@ -33,16 +33,34 @@ Face face_of(const waterline::Body& body, std::size_t t) {
   return {0.5 * length, length > 0 ? std::acos(std::clamp(-normal.z() / length, -1.0, 1.0)) : 0};
 }
 
+/// Returns the figures that do not depend on where the film lands.
+DipFigures figures_of_pass(const StokesPass& pass) {
+  DipFigures figures;
+  figures.depth_mm = pass.stokes.depth_mm;
+  figures.stopped_at_edge = pass.stopped_at_edge;
+  figures.traps = pass.traps;
+  figures.passed_over_mm = pass.passed_over_mm;
+  figures.steps = static_cast<int>(pass.stokes.fields.size());
+  for (const velocity::VelocityField& field : pass.stokes.fields) {
+    const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
+    const auto triangles = static_cast<int>(field.mesh().triangles.size());
+    figures.film_vertices_max = std::max(figures.film_vertices_max, vertices);
+    figures.film_triangles_max = std::max(figures.film_triangles_max, triangles);
+  }
+  return figures;
+}
+
 /// Areas of the surface and of parts of it, mm2.
 struct Shares {
   double total = 0, reached = 0, clamped = 0, wrinkled = 0, torn = 0;
 };
 
-void measure_stretch(const flow::SurfaceMap& map, const std::vector<char>& is_clamped,
+void measure_stretch(const flow::SurfaceMap& map, const std::vector<char>& is_measured,
                      DipFigures& figures) {
+  figures.stretch_p50 = figures.stretch_p95 = figures.stretch_max = 0;
   std::vector<double> stretch;
   for (std::size_t v = 0; v < map.stretch.size(); ++v) {
-    if (std::isfinite(map.stretch[v]) && is_clamped[v] == 0) stretch.push_back(map.stretch[v]);
+    if (std::isfinite(map.stretch[v]) && is_measured[v] != 0) stretch.push_back(map.stretch[v]);
   }
   if (stretch.empty()) return;
   std::sort(stretch.begin(), stretch.end());
@@ -93,7 +111,7 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
 }
 
 /// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
-void warn_of_strain(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
+void warn_of_tears(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
   const auto warn = [&](double share, const char* code, const std::string& message) {
     if (share > 0) {
       warnings.push_back(
@@ -114,32 +132,31 @@ void warn_of_strain(const DipFigures& figures, const film::Profile& profile, War
 
 DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                       const film::Profile& profile) {
-  DipFigures figures;
-  figures.depth_mm = pass.stokes.depth_mm;
-  figures.stopped_at_edge = pass.stopped_at_edge;
-  figures.traps = pass.traps;
-  figures.passed_over_mm = pass.passed_over_mm;
-  figures.steps = static_cast<int>(pass.stokes.fields.size());
-  for (const velocity::VelocityField& field : pass.stokes.fields) {
-    const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
-    const auto triangles = static_cast<int>(field.mesh().triangles.size());
-    figures.film_vertices_max = std::max(figures.film_vertices_max, vertices);
-    figures.film_triangles_max = std::max(figures.film_triangles_max, triangles);
-  }
+  DipFigures figures = figures_of_pass(pass);
+  const std::vector<char> all(pass.surface.points.size(), 1);
+  measure_part(pass.surface, pass.body, map, profile, all, figures);
+  return figures;
+}
+
+void measure_part(const mesh::Surface& surface, const waterline::Body& body,
+                  const flow::SurfaceMap& map, const film::Profile& profile,
+                  const std::vector<char>& counted, DipFigures& figures) {
   Shares shares;
-  std::vector<char> is_clamped(pass.surface.points.size(), 0);
-  for (std::size_t t = 0; t < pass.surface.triangles.size(); ++t) {
-    const Face face = face_of(pass.body, t);
+  std::vector<char> is_measured = counted;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Face face = face_of(body, t);
     const bool clamped = face.theta_rad > waterline::kThetaLimit_rad;
+    const double third_mm2 = face.area_mm2 / 3;
     shares.total += face.area_mm2;
-    if (clamped) shares.clamped += face.area_mm2;
-    for (const int v : pass.surface.triangles[t]) {
-      if (clamped) is_clamped[v] = 1;
+    for (const int v : surface.triangles[t]) {
+      if (counted[v] == 0) continue;
+      if (clamped) shares.clamped += third_mm2;
+      if (clamped) is_measured[v] = 0;
       if (std::isnan(map.film_mm[v].x())) continue;
-      shares.reached += face.area_mm2 / 3;
+      shares.reached += third_mm2;
       if (clamped) continue;  // the map is unreliable there
-      if (map.least_stretch[v] < profile.wrinkle_stretch) shares.wrinkled += face.area_mm2 / 3;
-      if (map.stretch[v] > profile.tear_stretch) shares.torn += face.area_mm2 / 3;
+      if (map.least_stretch[v] < profile.wrinkle_stretch) shares.wrinkled += third_mm2;
+      if (map.stretch[v] > profile.tear_stretch) shares.torn += third_mm2;
     }
   }
   if (shares.total > 0) {
@@ -148,13 +165,11 @@ DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
     figures.wrinkled_share = shares.wrinkled / shares.total;
     figures.torn_share = shares.torn / shares.total;
   }
-  measure_stretch(map, is_clamped, figures);
-  return figures;
+  measure_stretch(map, is_measured, figures);
 }
 
-Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
+Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options) {
   Warnings warnings;
-
   if (figures.stopped_at_edge) {
     warnings.push_back({"film_edge_reached",
                         fmt::format("the waterline reaches the edge of the film {}; the dip ends "
@@ -163,21 +178,18 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
                                     options.outline.name),
                         at_immersion(figures.depth_mm)});
   }
+  warn_of_traps(figures.traps, warnings);
+  return warnings;
+}
+
+Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options) {
+  Warnings warnings;
   if (figures.clamped_share > 0) {
     warnings.push_back({"theta_clamped",
                         fmt::format("{} of the surface faces up, within 10 degrees of level, where "
                                     "theta is clamped at 170 degrees: do not trust the map there",
                                     percent(figures.clamped_share)),
                         "surface"});
-  }
-  warn_of_traps(figures.traps, warnings);
-  if (figures.coverage < 0.995) {
-    warnings.push_back(
-        {"parts_not_reached",
-         fmt::format(
-             "film reaches {} of the surface; the rest stays bare. Turn the object or dip it again",
-             percent(figures.coverage)),
-         "surface"});
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
     warnings.push_back(
@@ -187,16 +199,33 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
                      three_digits(figures.stretch_max), kStokesStretch),
          "surface"});
   }
-  if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
-    warnings.push_back({"drag_ignored",
-                        "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
-                        "profile"});
-  }
-  warn_of_strain(figures, options.profile, warnings);
-  const Warnings motion =
-      warnings_of_motion(figures.steps, figures.passed_over_mm, figures.unsettled_mm);
-  warnings.insert(warnings.end(), motion.begin(), motion.end());
+  warn_of_tears(figures, options.profile, warnings);
   return warnings;
+}
+
+Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
+  Warnings warnings = warnings_of_waterline(figures, options);
+  const auto add = [&](const Warnings& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  if (figures.coverage < 0.995) {
+    warnings.push_back(
+        {"parts_not_reached",
+         fmt::format(
+             "film reaches {} of the surface; the rest stays bare. Turn the object or dip it again",
+             percent(figures.coverage)),
+         "surface"});
+  }
+  add(warnings_of_strain(figures, options));
+  add(warnings_of_profile(options));
+  add(warnings_of_motion(figures.steps, figures.passed_over_mm, figures.unsettled_mm));
+  return warnings;
+}
+
+Warnings warnings_of_profile(const DipOptions& options) {
+  if (options.film_model != FilmModel::kStokes || options.profile.drag_length_mm <= 0) return {};
+  return {{"drag_ignored",
+           "Stokes flow ignores water drag (drag_length_mm). Use --model sheet", "profile"}};
 }
 
 Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,

@@ -12,8 +12,26 @@ namespace hydroprint::pipeline {
 [[nodiscard]] DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                                     const film::Profile& profile);
 
+/// Sets the shares of the surface and the stretch in `figures` for a part of the surface. The shares
+/// remain relative to the whole surface.
+/// @param counted  for each point: 1 if it belongs to the part
+void measure_part(const mesh::Surface& surface, const waterline::Body& body,
+                  const flow::SurfaceMap& map, const film::Profile& profile,
+                  const std::vector<char>& counted, DipFigures& figures);
+
 /// Returns the warnings about a dip with these figures.
 [[nodiscard]] Warnings warnings_of(const DipFigures& figures, const DipOptions& options);
+
+/// Returns only the warnings about strain, which say where the result cannot be trusted although
+/// the film arrives: theta_clamped, stretch_beyond_stokes, film_torn, film_wrinkled.
+[[nodiscard]] Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options);
+
+/// Returns only the warnings about the motion of the waterline: film_edge_reached, film_trapped,
+/// air_trapped.
+[[nodiscard]] Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options);
+
+/// Returns only the warnings about what the model of the film ignores.
+[[nodiscard]] Warnings warnings_of_profile(const DipOptions& options);
 
 /// Returns only the warnings about the film's motion, which do not depend on where the film lands.
 /// @param steps  number of waterlines solved; the other parameters are as in DipFigures

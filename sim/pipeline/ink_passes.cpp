@@ -56,7 +56,7 @@ struct InkedFlow {
   std::vector<InkPass> passes;
 };
 
-Result<InkedFlow> ink_passes(const StokesPass& first, const image::Paint& paint, int most_passes,
+Result<InkedFlow> ink_passes(const StokesPass& first, const FilmDrawing& draw, int most_passes,
                              double dpi, const DipOptions& options, const Context& context) {
   DipOptions rough = options;
   rough.map = coarse(options.map);
@@ -64,9 +64,8 @@ Result<InkedFlow> ink_passes(const StokesPass& first, const image::Paint& paint,
   InkedFlow out{{first.stokes}, {}, {}};
   HP_ASSIGN_OR_RETURN(out.map, trace_flow_map(first, out.flow.field, rough, context));
   for (int pass = 1; pass <= most_passes; ++pass) {
-    HP_ASSIGN_OR_RETURN(
-        const image::RgbImage film,
-        image::film_image(first.surface, out.map.tiles, paint, options.outline, kInkDpi, context));
+    HP_ASSIGN_OR_RETURN(const image::RgbImage film,
+                        draw(first.surface, out.map.tiles, kInkDpi, context));
     HP_ASSIGN_OR_RETURN(
         const ink::InkField ink,
         ink::ink_of(film, options.outline, {options.profile.ink_icc_profile}, context));
@@ -85,11 +84,18 @@ Result<InkedFlow> ink_passes(const StokesPass& first, const image::Paint& paint,
 
 }  // namespace
 
-Result<Dip> dip_inked(const mesh::Model& model, StokesPass first, const image::Paint& paint,
+FilmDrawing drawing_of(const image::Paint& paint, const film::Outline& outline) {
+  return [&](const mesh::Surface& surface, const std::vector<flow::MappedTriangle>& tiles,
+             double dpi, const Context& context) {
+    return image::film_image(surface, tiles, paint, outline, dpi, context);
+  };
+}
+
+Result<Dip> dip_inked(const mesh::Model& model, StokesPass first, const FilmDrawing& draw,
                       int most_passes, double dpi, const DipOptions& options,
                       const Context& context) {
   HP_ASSIGN_OR_RETURN(InkedFlow inked,
-                      ink_passes(first, paint, most_passes, dpi, options, context));
+                      ink_passes(first, draw, most_passes, dpi, options, context));
   Dip dip =
       assemble_dip(model, std::move(first), std::move(inked.map), inked.flow.unsettled_mm, options);
   dip.figures.ink_passes = std::move(inked.passes);

@@ -38,16 +38,16 @@ Status check_materials(const mesh::Model& model) {
 /// reading most models, so it happens at the same time. Before a large model, the libraries are
 /// loaded first, because they end the program if there is no memory for them. The calling thread
 /// always loads them, because LeakSanitizer reports libraries whose loading thread has ended.
-Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
+Result<mesh::Model> read_model(const ModelInput& input, const Context& context) {
   const auto read = [&](const Context& reading) {
-    return mesh::read_model(options.mesh, options.scale, reading);
+    return mesh::read_model(input.mesh, input.scale, reading);
   };
-  if (!options.images && !options.texture) return read(context);
+  if (!input.images && !input.has_texture) return read(context);
   const auto load = [](const Context&) -> Result<bool> {
     image::load_image_libraries();
     return true;
   };
-  if (!is_small(options.mesh)) {
+  if (!is_small(input.mesh)) {
     (void)load(context);
     return read(context);
   }
@@ -57,10 +57,10 @@ Result<mesh::Model> read_model(const SimulateOptions& options, const Context& co
 
 }  // namespace
 
-Result<mesh::Model> read_inputs(const SimulateOptions& options, const Context& context) {
+Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context) {
   context.progress("reading", 0);
-  HP_ASSIGN_OR_RETURN(mesh::Model model, read_model(options, context));
-  if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(model));
+  HP_ASSIGN_OR_RETURN(mesh::Model model, read_model(input, context));
+  if (input.images && !input.has_texture) HP_RETURN_IF_ERROR(check_materials(model));
   return model;
 }
 

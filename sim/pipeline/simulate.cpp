@@ -60,7 +60,8 @@ Result<Dip> finish_dip(const mesh::Model& model, StokesPass first,
   if (passes == 0 || !paint->has_colour()) {
     return dip(model, std::move(first), dip_options, context);
   }
-  return dip_inked(model, std::move(first), *paint, passes, options.dpi, dip_options, context);
+  return dip_inked(model, std::move(first), drawing_of(*paint, dip_options.outline), passes,
+                   options.dpi, dip_options, context);
 }
 
 Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
@@ -97,7 +98,9 @@ Warnings all_warnings(const Dip& dip, const std::optional<image::Paint>& paint) 
 
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
   Simulation out;
-  HP_ASSIGN_OR_RETURN(out.model, read_inputs(options, context));
+  HP_ASSIGN_OR_RETURN(out.model, read_inputs({options.mesh, options.scale,
+                                              options.texture.has_value(), options.images},
+                                             context));
   HP_ASSIGN_OR_RETURN(auto painted, run_painted_stokes_pass(out.model, options, context));
   auto& [first, paint] = painted;
   HP_ASSIGN_OR_RETURN(out.dip, finish_dip(out.model, std::move(first), paint, options, context));

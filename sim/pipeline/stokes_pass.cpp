@@ -61,8 +61,15 @@ Result<std::vector<std::optional<velocity::VelocityField>>> solve(
 
 Result<StokesPass> run_stokes_pass(const mesh::Model& model, const DipOptions& options,
                                    const Context& context) {
+  HP_ASSIGN_OR_RETURN(mesh::Surface surface,
+                      mesh::make_surface(model, options.surface_edge_mm, context));
+  return run_stokes_pass(std::move(surface), options, context);
+}
+
+Result<StokesPass> run_stokes_pass(mesh::Surface surface, const DipOptions& options,
+                                   const Context& context) {
   StokesPass out;
-  HP_ASSIGN_OR_RETURN(out.surface, mesh::make_surface(model, options.surface_edge_mm, context));
+  out.surface = std::move(surface);
   out.X_FO = options.X_FO.value_or(waterline::centred_pose(out.surface));
   out.body = waterline::place(out.surface, out.X_FO);
   out.stokes.outline = floating(options.outline, options.profile.swelling);

@@ -30,6 +30,10 @@ struct StokesPass {
 [[nodiscard]] Result<StokesPass> run_stokes_pass(const mesh::Model& model,
                                                  const DipOptions& options, const Context& context);
 
+/// Same as above, for a surface made before by mesh::make_surface().
+[[nodiscard]] Result<StokesPass> run_stokes_pass(mesh::Surface surface, const DipOptions& options,
+                                                 const Context& context);
+
 /// Computes the flow of the viscous sheet (section 4.3) that carries this ink.
 /// @param first  the starting flow: Stokes flow, or that of the sheet with nearly the same ink
 [[nodiscard]] Result<sheet::SheetFlow> sheet_field(const flow::DipField& first,

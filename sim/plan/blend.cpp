@@ -97,7 +97,29 @@ Result<BlendWeights> BlendWeights::create(const mesh::Surface& surface, const Re
     return {};
   };
   HP_RETURN_IF_ERROR(parallel_for(context, "blend", 2 * dips, compute));
+  for (std::size_t t = 0; t < facets->size(); ++t)
+    weights.only_dip_.push_back(weights.find_only_dip(static_cast<int>(t)));
   return weights;
+}
+
+/// Returns the dip that prints the whole triangle alone; 0 if no dip does, -1 if several may.
+int BlendWeights::find_only_dip(int triangle) const {
+  const auto fragments = fragments_.of_triangle(triangle);
+  const int own = fragments.front().dip;
+  if (own == 0) return 0;
+  const auto is_own = [&](const Fragment& fragment) { return fragment.dip == own; };
+  if (!std::all_of(fragments.begin(), fragments.end(), is_own)) return -1;
+  for (int dip = 1; dip <= dips(); ++dip) {
+    if (dip == own || !fragments_.reaches(dip, triangle)) continue;
+    if (distance_[static_cast<std::size_t>(dip - 1)].comes_to(triangle)) return -1;
+  }
+  return own;
+}
+
+double BlendWeights::of_dip(int dip, int triangle, const Eigen::Vector3d& barycentric) const {
+  const int only = only_dip_[static_cast<std::size_t>(triangle)];
+  if (only >= 0) return only == dip && only != 0 ? 1 : 0;
+  return at(triangle, barycentric)[static_cast<std::size_t>(dip - 1)];
 }
 
 std::vector<double> BlendWeights::at(int triangle, const Eigen::Vector3d& barycentric) const {
@@ -125,21 +147,13 @@ std::vector<double> BlendWeights::at(int triangle, const Eigen::Vector3d& baryce
 Result<std::vector<std::vector<double>>> BlendWeights::at_points(const mesh::Surface& surface,
                                                                  const Context& context) const {
   const std::size_t points = surface.points.size();
-  std::vector<int> corner_at(points, -1);  // per welded point: a corner there
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (fragments_.reach[t] == 0) continue;
-    for (int c = 0; c < 3; ++c) {
-      const auto p = static_cast<std::size_t>(surface.triangles[t][c]);
-      int& corner = corner_at[static_cast<std::size_t>(surface.weld[p])];
-      if (corner < 0) corner = 3 * static_cast<int>(t) + c;
-    }
-  }
+  const std::vector<int> corner_at = reached_corners(surface, fragments_);
   std::vector<std::vector<double>> weights(distance_.size(), std::vector<double>(points, 0));
   const std::size_t tasks = (points + kPointsPerTask - 1) / kPointsPerTask;
   HP_RETURN_IF_ERROR(parallel_for(context, "blend weights", tasks, [&](std::size_t task) -> Status {
     const std::size_t end = std::min((task + 1) * kPointsPerTask, points);
     for (std::size_t p = task * kPointsPerTask; p < end; ++p) {
-      const int corner = corner_at[static_cast<std::size_t>(surface.weld[p])];
+      const int corner = corner_at[p];
       if (corner < 0) continue;
       const auto at_point = at(corner / 3, Eigen::Vector3d::Unit(corner % 3));
       for (std::size_t k = 0; k < at_point.size(); ++k) weights[k][p] = at_point[k];

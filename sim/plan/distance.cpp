@@ -198,4 +198,16 @@ double DistanceField::at(int triangle, const Eigen::Vector3d& barycentric) const
   return least <= limit_mm_ ? least : std::numeric_limits<double>::infinity();
 }
 
+bool DistanceField::comes_to(int triangle) const {
+  if (!facets_) return false;
+  const auto t = static_cast<std::size_t>(triangle);
+  if (window_begin_[t] != window_begin_[t + 1] || segment_begin_[t] != segment_begin_[t + 1])
+    return true;
+  for (int c = 0; c < 3; ++c) {
+    const auto v = static_cast<std::size_t>(facets_->vertex(3 * triangle + c));
+    if (vertex_mm_[v] <= limit_mm_) return true;
+  }
+  return false;
+}
+
 }  // namespace hydroprint::plan

@@ -37,6 +37,9 @@ class DistanceField {
   /// infinity if it is beyond the limit. Exact up to rounding (1e-6 mm).
   [[nodiscard]] double at(int triangle, const Eigen::Vector3d& barycentric) const;
 
+  /// Returns false if the distance of every point of the triangle is infinite.
+  [[nodiscard]] bool comes_to(int triangle) const;
+
  private:
   struct Segment {
     Eigen::Vector2d from;

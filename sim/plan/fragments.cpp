@@ -184,4 +184,19 @@ Result<Fragments> divide_triangles(const mesh::Surface& surface, const Stretch& 
   return fragments;
 }
 
+std::vector<int> reached_corners(const mesh::Surface& surface, const Fragments& fragments) {
+  std::vector<int> at_weld(surface.points.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (fragments.reach[t] == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      const auto p = static_cast<std::size_t>(surface.triangles[t][c]);
+      int& corner = at_weld[static_cast<std::size_t>(surface.weld[p])];
+      if (corner < 0) corner = 3 * static_cast<int>(t) + c;
+    }
+  }
+  std::vector<int> out;
+  for (const int weld : surface.weld) out.push_back(at_weld[static_cast<std::size_t>(weld)]);
+  return out;
+}
+
 }  // namespace hydroprint::plan

@@ -114,4 +114,17 @@ Result<Regions> make_regions(const mesh::Surface& surface, const Stretch& stretc
   return regions;
 }
 
+std::vector<int> dips_at_points(const mesh::Surface& surface, const Fragments& fragments) {
+  std::vector<int> out;
+  for (const int corner : reached_corners(surface, fragments)) {
+    if (corner < 0) {
+      out.push_back(0);
+      continue;
+    }
+    const Eigen::Vector3d at = Eigen::Vector3d::Unit(corner % 3);
+    out.push_back(fragments.all[fragments.find(corner / 3, at)].dip);
+  }
+  return out;
+}
+
 }  // namespace hydroprint::plan

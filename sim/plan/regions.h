@@ -49,4 +49,9 @@ struct Regions {
 [[nodiscard]] Result<Regions> make_regions(const mesh::Surface& surface, const Stretch& stretch,
                                            const RegionOptions& options, const Context& context);
 
+/// Returns the dip to which each point of the surface belongs, from 1; 0 where no dip reaches. A
+/// point on a seam belongs to one of the dips there. Welded points belong to the same dip.
+[[nodiscard]] std::vector<int> dips_at_points(const mesh::Surface& surface,
+                                              const Fragments& fragments);
+
 }  // namespace hydroprint::plan

@@ -72,8 +72,10 @@ Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options, in
   } else {
     HP_ASSIGN_OR_RETURN(pipeline::StokesPass begun,
                         pipeline::run_stokes_pass(body.model, options, context));
-    HP_ASSIGN_OR_RETURN(plan.dip, pipeline::dip_inked(body.model, std::move(begun), body.paint,
-                                                      ink_passes, dpi, options, context));
+    HP_ASSIGN_OR_RETURN(
+        plan.dip, pipeline::dip_inked(body.model, std::move(begun),
+                                      pipeline::drawing_of(body.paint, options.outline), ink_passes,
+                                      dpi, options, context));
   }
   HP_ASSIGN_OR_RETURN(plan.film, image::film_image(plan.dip.surface, plan.dip.map.tiles, body.paint,
                                                    options.outline, dpi, context));

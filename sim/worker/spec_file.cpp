@@ -56,35 +56,39 @@ Status check_file(const std::string& field, const v1::InputFile& file,
   return {};
 }
 
-bool is_input_file(const FieldDescriptor& field) {
-  return field.message_type() == v1::InputFile::descriptor();
+Status check(const Message& spec, const std::filesystem::path& inputs, const std::string& path);
+
+Status check_value(const Message& value, const std::string& place,
+                   const std::filesystem::path& inputs) {
+  if (value.GetDescriptor() == v1::InputFile::descriptor())
+    return check_file(place, static_cast<const v1::InputFile&>(value), inputs);
+  return check(value, inputs, place + ".");
 }
 
-Status check_files(const Message& spec, const FieldDescriptor& field,
-                   const std::filesystem::path& inputs) {
+Status check_values(const Message& spec, const FieldDescriptor& field, const std::string& place,
+                    const std::filesystem::path& inputs) {
   const auto& reflection = *spec.GetReflection();
-  if (!field.is_repeated()) {
-    return check_file(field.name(),
-                      static_cast<const v1::InputFile&>(reflection.GetMessage(spec, &field)),
-                      inputs);
-  }
+  if (!field.is_repeated()) return check_value(reflection.GetMessage(spec, &field), place, inputs);
   for (int i = 0; i < reflection.FieldSize(spec, &field); ++i) {
-    HP_RETURN_IF_ERROR(check_file(
-        fmt::format("{}[{}]", field.name(), i),
-        static_cast<const v1::InputFile&>(reflection.GetRepeatedMessage(spec, &field, i)), inputs));
+    HP_RETURN_IF_ERROR(check_value(reflection.GetRepeatedMessage(spec, &field, i),
+                                   fmt::format("{}[{}]", place, i), inputs));
   }
   return {};
 }
 
-Status check(const Message& spec, const std::filesystem::path& inputs) {
+/// Checks the files of a message, and that it has no references.
+/// @param path  of the message in the spec, with a dot at its end; empty for the spec
+Status check(const Message& spec, const std::filesystem::path& inputs, const std::string& path) {
   std::vector<const FieldDescriptor*> fields;
   spec.GetReflection()->ListFields(spec, &fields);
   for (const FieldDescriptor* field : fields) {
+    const std::string place = path + field->name();
     if (is_reference(*field)) {
-      return fail_field(Code::kInvalidArgument, field->name(),
+      return fail_field(Code::kInvalidArgument, place,
                         "only a daemon can resolve this reference. Use files and values instead");
     }
-    if (is_input_file(*field)) HP_RETURN_IF_ERROR(check_files(spec, *field, inputs));
+    if (field->message_type() != nullptr)
+      HP_RETURN_IF_ERROR(check_values(spec, *field, place, inputs));
   }
   return {};
 }
@@ -96,7 +100,7 @@ Status read_spec(const std::filesystem::path& file, const std::filesystem::path&
   HP_ASSIGN_OR_RETURN(const std::string text,
                       file == "-" ? read_stdin() : read_text_file(file, kMaxBytes));
   HP_RETURN_IF_ERROR(parse(text, file, spec));
-  return check(spec, inputs);
+  return check(spec, inputs, "");
 }
 
 }  // namespace hydroprint::worker

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/image/figures/contact_sheet.h"
@@ -130,6 +131,44 @@ Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& 
   const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
     return [brush = film.brush(at, tile.film_mm)](int x, int y, const Eigen::Vector3d&) {
       return brush.at(x + 0.5, y + 0.5);
+    };
+  };
+  return draw_sheet(views, 0, context, [&](ViewDrawing& drawing) {
+    drawing.draw_tiles(colour_of);
+    drawing.draw_bare([](int, int) { return kBareObject; });
+  });
+}
+
+std::vector<flow::MappedTriangle> whole_triangles(
+    const mesh::Surface& surface, const std::function<bool(std::size_t)>& is_covered) {
+  std::vector<flow::MappedTriangle> out;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    if (!is_covered(t)) continue;
+    flow::MappedTriangle tile;
+    tile.triangle = static_cast<int>(t);
+    tile.film_mm.fill(Eigen::Vector2d::Zero());
+    tile.barycentric = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(),
+                        Eigen::Vector3f::UnitZ()};
+    out.push_back(tile);
+  }
+  return out;
+}
+
+Result<RgbImage> combined_picture(const ObjectViews& views, const std::vector<LandedFilm>& films,
+                                  const Context& context) {
+  const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
+    const Eigen::Vector3i& v = views.surface.triangles[static_cast<std::size_t>(tile.triangle)];
+    std::vector<Brush> brushes;
+    for (const LandedFilm& film : films) {
+      const Corners landed = {film.film_mm[v[0]], film.film_mm[v[1]], film.film_mm[v[2]]};
+      if (!(landed[0] + landed[1] + landed[2]).allFinite()) continue;
+      brushes.push_back(film.film.brush(at, landed));
+    }
+    return [brushes = std::move(brushes)](int x, int y, const Eigen::Vector3d&) {
+      Eigen::Vector3f ink = Eigen::Vector3f::Zero();
+      for (const Brush& brush : brushes)
+        ink += Eigen::Vector3f::Ones() - srgb_from_linear(brush.at(x + 0.5, y + 0.5));
+      return linear_from_srgb(Eigen::Vector3f(Eigen::Vector3f::Ones() - ink));
     };
   };
   return draw_sheet(views, 0, context, [&](ViewDrawing& drawing) {

@@ -58,15 +58,18 @@ class Block {
   explicit Block(const Window& window)
       : window_(window), pixels_(static_cast<std::size_t>(kBlock_px) * kBlock_px) {}
 
-  /// @param at  the tile's corners on the pixel grid
-  void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
+  /// @param at     the tile's corners on the pixel grid
+  /// @param brush  at(x, y) returns the colour of a place on the pixel grid
+  template <class TileBrush>
+  void paint(const Corners& at, const std::array<float, 3>& time_s, const TileBrush& brush) {
     collect_spans(at);
     const BarycentricMap map(at);
     const TimePlane times(map, {time_s[0], time_s[1], time_s[2]});
     for (int y = first_row_; y <= last_row_; ++y) paint_row(y, map, times, brush);
   }
 
-  void resolve(RgbImage& image) const {
+  /// Encodes the mean light of each pixel's samples.
+  void resolve_light(RgbImage& image) const {
     const Srgb8Encoder encode;
     for (int y = window_.y0; y < window_.y1; ++y) {
       std::uint8_t* out = image.at(window_.x0, y);
@@ -76,6 +79,17 @@ class Block {
           const auto& light = in->light[c];
           out[c] = encode((light[0] + light[1] + light[2] + light[3]) * (1.0F / kSamples));
         }
+      }
+    }
+  }
+
+  /// Stores the mean over those samples of each pixel where film lands, without encoding.
+  void resolve_landed(RgbImage& image) const {
+    for (int y = window_.y0; y < window_.y1; ++y) {
+      std::uint8_t* out = image.at(window_.x0, y);
+      const Pixel* in = &pixels_[index(window_.x0, y)];
+      for (int x = window_.x0; x < window_.x1; ++x, out += 3, ++in) {
+        for (int c = 0; c < 3; ++c) out[c] = mean_of_landed(in->light[c], in->landed_s);
       }
     }
   }
@@ -108,6 +122,19 @@ class Block {
   };
   using Spans = std::array<Span, kSamples>;
 
+  static std::uint8_t mean_of_landed(const PerSample& values, const PerSample& landed_s) {
+    float sum = 0;
+    int landed = 0;
+    for (int s = 0; s < kSamples; ++s) {
+      if (landed_s[s] == HUGE_VALF) continue;
+      sum += values[s];
+      ++landed;
+    }
+    return landed == 0
+               ? 0
+               : static_cast<std::uint8_t>(std::lround(255 * sum / static_cast<float>(landed)));
+  }
+
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - window_.y0) * kBlock_px +
            static_cast<std::size_t>(x - window_.x0);
@@ -134,7 +161,8 @@ class Block {
     last_row_ = std::max(last_row_, y);
   }
 
-  void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
+  template <class TileBrush>
+  void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const TileBrush& brush) {
     const Spans& spans = rows_[y - window_.y0];
     // Ranges of the pixels with at least one covered sample, and with all samples covered.
     Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};
@@ -188,6 +216,55 @@ class Block {
   int first_row_ = 0, last_row_ = -1;
 };
 
+/// The weight of a tile's points, as a brush.
+class WeightBrush {
+ public:
+  WeightBrush(const Weight& weight, const flow::MappedTriangle& tile, const Corners& at)
+      : weight_(weight), tile_(tile), map_(at) {}
+
+  [[nodiscard]] Eigen::Vector3f at(double x, double y) const {
+    // A pixel's middle may lie beyond the edge of a tile that covers one of its samples.
+    const Eigen::Vector3d in_tile = map_.at(x, y).cwiseMax(0.0);
+    Eigen::Vector3d in_triangle = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) in_triangle += in_tile[i] * tile_.barycentric[i].cast<double>();
+    return Eigen::Vector3f::Constant(weight_(tile_.triangle, in_triangle / in_triangle.sum()));
+  }
+
+ private:
+  const Weight& weight_;
+  const flow::MappedTriangle& tile_;
+  BarycentricMap map_;
+};
+
+/// Paints the tiles on the blocks of an image.
+/// @param brush_of  returns the brush of a tile with its corners on the pixel grid
+/// @param resolve   copies a painted block to the image
+template <class BrushOf, class Resolve>
+Status paint_tiles(const std::vector<flow::MappedTriangle>& tiles, const FilmGrid& grid,
+                   const Context& context, const BrushOf& brush_of, const Resolve& resolve) {
+  const TileBins bins(tiles, grid, kBlock_px);
+  return parallel_for(context, "film image", bins.count(), [&](std::size_t b) {
+    const auto in_block = bins.tiles(b);
+    if (in_block.empty()) return Status{};
+    Block block(bins.window(b));
+    for (const int t : in_block) {
+      const flow::MappedTriangle& tile = tiles[t];
+      const Corners at = {grid.cell(tile.film_mm[0]), grid.cell(tile.film_mm[1]),
+                          grid.cell(tile.film_mm[2])};
+      block.paint(at, tile.contact_time_s, brush_of(tile, at));
+    }
+    resolve(block);
+    return Status{};
+  });
+}
+
+/// Returns an image of the film in one colour.
+RgbImage blank_image(const FilmGrid& grid, std::uint8_t channel) {
+  RgbImage image{grid.columns, grid.rows, {}};
+  image.rgb.assign(3 * static_cast<std::size_t>(grid.columns) * grid.rows, channel);
+  return image;
+}
+
 Status check_size(const film::Outline& outline, double dpi) {
   if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
     return fail(Code::kOutOfRange, fmt::format("{} dpi is out of range ({} to {}). Give the "
@@ -238,27 +315,38 @@ Result<RgbImage> film_image(const mesh::Surface& surface,
   HP_CHECK(surface.source_triangle.size() == surface.triangles.size());
   HP_RETURN_IF_ERROR(check_size(outline, dpi));
   const FilmGrid grid = film_grid(outline, 25.4 / dpi);
-  RgbImage image{grid.columns, grid.rows, {}};
-  image.rgb.assign(3 * static_cast<std::size_t>(grid.columns) * grid.rows, 255);
+  RgbImage image = blank_image(grid, 255);
   if (!paint.has_colour()) return image;
-
-  const TileBins bins(tiles, grid, kBlock_px);
-  HP_RETURN_IF_ERROR(parallel_for(context, "film image", bins.count(), [&](std::size_t b) {
-    const auto in_block = bins.tiles(b);
-    if (in_block.empty()) return Status{};
-    Block block(bins.window(b));
-    for (const int t : in_block) {
-      const flow::MappedTriangle& tile = tiles[t];
-      const Corners at = {grid.cell(tile.film_mm[0]), grid.cell(tile.film_mm[1]),
-                          grid.cell(tile.film_mm[2])};
-      block.paint(at, tile.contact_time_s,
-                  paint.brush(surface.source_triangle[tile.triangle], at,
-                              model_barycentric(surface, tile)));
-    }
-    block.resolve(image);
-    return Status{};
-  }));
+  const auto brush_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
+    return paint.brush(surface.source_triangle[tile.triangle], at,
+                       model_barycentric(surface, tile));
+  };
+  HP_RETURN_IF_ERROR(paint_tiles(tiles, grid, context, brush_of,
+                                 [&image](const Block& block) { block.resolve_light(image); }));
   return image;
+}
+
+Result<RgbImage> film_mask(const std::vector<flow::MappedTriangle>& tiles, const Weight& weight,
+                           const film::Outline& outline, double dpi, const Context& context) {
+  HP_RETURN_IF_ERROR(check_size(outline, dpi));
+  const FilmGrid grid = film_grid(outline, 25.4 / dpi);
+  RgbImage mask = blank_image(grid, 0);
+  const auto brush_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
+    return WeightBrush(weight, tile, at);
+  };
+  HP_RETURN_IF_ERROR(paint_tiles(tiles, grid, context, brush_of,
+                                 [&mask](const Block& block) { block.resolve_landed(mask); }));
+  return mask;
+}
+
+RgbImage seen_through(const RgbImage& mask, const RgbImage& image) {
+  HP_CHECK(mask.rgb.size() == image.rgb.size());
+  RgbImage out = image;
+  for (std::size_t i = 0; i < out.rgb.size(); ++i) {
+    const int ink = 255 - image.rgb[i];
+    out.rgb[i] = static_cast<std::uint8_t>(255 - (ink * mask.rgb[i] + 127) / 255);
+  }
+  return out;
 }
 
 }  // namespace hydroprint::image

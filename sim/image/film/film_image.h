@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "sim/base/context.h"
@@ -48,5 +49,21 @@ inline constexpr double kMaxFilmImage_px = 400e6;
                                           const std::vector<flow::MappedTriangle>& tiles,
                                           const Paint& paint, const film::Outline& outline,
                                           double dpi, const Context& context);
+
+/// Returns how much of the colour of a surface point a film prints, in [0, 1]. Called from several
+/// threads.
+/// @param triangle  index into Surface::triangles
+using Weight = std::function<float(int triangle, const Eigen::Vector3d& barycentric)>;
+
+/// Computes the mask of a film image: the weight of the surface point where each point of the film
+/// lands, as a grey of 255 times the weight; 0 where it does not land. Drawn like film_image(), but
+/// pixels at edges of the covered region have the mean weight of the covered part. Same errors.
+[[nodiscard]] Result<RgbImage> film_mask(const std::vector<flow::MappedTriangle>& tiles,
+                                         const Weight& weight, const film::Outline& outline,
+                                         double dpi, const Context& context);
+
+/// Returns an image as seen through a mask of the same size, on white: w c + (1 - w) white for each
+/// coded channel c, where w is the mask's channel divided by 255 (section 6 of the paper).
+[[nodiscard]] RgbImage seen_through(const RgbImage& mask, const RgbImage& image);
 
 }  // namespace hydroprint::image

@@ -32,6 +32,10 @@ class ProgressSink {
 
 }  // namespace
 
+Result<std::string> ArtifactTask::report_text(const Report& report) const {
+  return report_json(verb_, findings(report), report);
+}
+
 Status ArtifactTask::write_all(OutFolder& folder, Report& report, Progress& progress,
                                const Context& context) {
   context.progress("inputs", 0);
@@ -40,8 +44,8 @@ Status ArtifactTask::write_all(OutFolder& folder, Report& report, Progress& prog
   HP_RETURN_IF_ERROR(compute(folder, report, context));
   report.stage_seconds = progress.stage_seconds();
   report.total_s = progress.total_s();
-  HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "report.json",
-                                           report_json(verb_, findings(report), report)));
+  HP_ASSIGN_OR_RETURN(const std::string text, report_text(report));
+  HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "report.json", text));
   context.progress("writing", 1);
   return check_cancelled(context);
 }

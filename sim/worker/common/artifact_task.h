@@ -36,7 +36,9 @@ class ArtifactTask : public Task {
                                        const Context& context) = 0;
 
   /// Returns the verb's own keys of report.json, in order. Called after compute().
-  [[nodiscard]] virtual Json findings(const Report& report) const = 0;
+  [[nodiscard]] virtual Json findings(const Report& /*report*/) const { return Json::object(); }
+  /// Returns the content of report.json. Called last; by default report_json() of findings().
+  [[nodiscard]] virtual Result<std::string> report_text(const Report& report) const;
   /// Returns the figures of the summary for `--json`. Called after compute().
   [[nodiscard]] virtual Json figures() const = 0;
   /// Returns the summary as text; each line ends with a newline. Called after compute().

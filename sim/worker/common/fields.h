@@ -20,7 +20,8 @@ namespace hydroprint::worker {
 /// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
 [[nodiscard]] Error name_field(Error error, bool as_flag);
 
-/// Returns "--ink-passes" for "ink_passes".
+/// Returns "--ink-passes" for "ink_passes" and for "film.ink_passes"; "--immersions: [1].depth_mm"
+/// for a field in a list.
 [[nodiscard]] std::string flag_of(const std::string& field);
 
 /// True if only a daemon can resolve the field: the name of a job or calibration, or an option of

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/number_text.h"
+#include "sim/image/film/film_image.h"
 #include "sim/worker/common/fields.h"
 
 namespace hydroprint::worker {
@@ -62,9 +65,47 @@ Status choose(FlowOptions& options, v1::Model model, bool inertia, v1::ArtifactS
   return {};
 }
 
+Status check_film_image(const film::Outline& outline, double dpi) {
+  const image::FilmGrid grid = image::film_grid(outline, 25.4 / dpi);
+  const double pixels = static_cast<double>(grid.columns) * grid.rows;
+  if (pixels <= image::kMaxFilmImage_px) return {};
+  const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
+  return fail_field(
+      Code::kOutOfRange, "dpi",
+      fmt::format(
+          "the film image would have too many pixels ({} x {}). Use at most {} dpi for this film",
+          grid.columns, grid.rows, most_dpi));
+}
+
+Status add_material_textures(const mesh::Model& model, Report& report) {
+  for (const mesh::Material& material : model.materials) {
+    if (!material.texture_bytes.empty()) continue;
+    HP_RETURN_IF_ERROR(add_inputs(report, {{"material_texture", material.texture}}));
+  }
+  return {};
+}
+
 std::vector<Stage> simulate_stages(const FlowOptions& options) { return stages(options, true); }
 
 std::vector<Stage> predict_stages(const FlowOptions& options) { return stages(options, false); }
+
+std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips) {
+  const std::vector<Stage> flow = {{"waterline", 1}, {"velocity", 9}, {"flow map", 10}};
+  std::vector<Stage> out = {{"inputs", 0.5}, {"reading", 4}, {"surface", 1}};
+  for (std::size_t k = 0; k < dips; ++k) append(out, flow);
+  append(out, {{"regions", 0.5}, {"blend", 1}, {"blend weights", 1}});
+  for (std::size_t k = 0; k < dips; ++k) {
+    append(out, {{"waterline", 1}, {"velocity", 9}});
+    const int passes = options.is_sheet() ? options.passes() : 0;
+    for (int pass = 0; pass < passes; ++pass) {
+      append(out, {{"flow map", 10}, {"film image", 2}, {"ink", 0.5}, {"sheet", 30}});
+    }
+    if (options.is_sheet() && passes == 0) out.push_back({"sheet", 30});
+    append(out, {{"flow map", 15}, {"film image", 14}, {"pictures", 10}, {"writing", 6}});
+  }
+  append(out, {{"pictures", 10}, {"writing", 2}});
+  return out;
+}
 
 Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
                                        const Context& context) {

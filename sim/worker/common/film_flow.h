@@ -52,10 +52,18 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
   return out;
 }
 
+/// Checks the size of the film image before the dip is computed. Fails with fail_field().
+[[nodiscard]] Status check_film_image(const film::Outline& outline, double dpi);
+
+/// Adds the texture files of the model's materials to the report's inputs. Textures embedded in the
+/// model's file are skipped.
+[[nodiscard]] Status add_material_textures(const mesh::Model& model, Report& report);
+
 /// Stages of a run. The weights are rough percentages of the time, measured with dips of a globe
 /// and of a cow with the default options. With inertia the sheet takes three times as long.
 [[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options);
 [[nodiscard]] std::vector<Stage> predict_stages(const FlowOptions& options);
+[[nodiscard]] std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips);
 
 /// Reads the files named in the options.
 [[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,

@@ -1,6 +1,5 @@
 #include "sim/worker/common/flags.h"
 
-#include <fmt/format.h>
 #include <google/protobuf/message.h>
 
 #include <CLI/CLI.hpp>
@@ -11,8 +10,7 @@
 #include "hydroprint/v1/spec.pb.h"
 #include "proto/flags/field_flag.h"
 #include "proto/rules/field_rules.h"
-#include "sim/base/checked_json.h"
-#include "sim/base/pose_file.h"
+#include "sim/base/immersions_file.h"
 #include "sim/worker/common/fields.h"
 
 namespace hydroprint::worker {
@@ -25,10 +23,19 @@ void set_file(Message& spec, const FieldDescriptor& field, const std::string& pa
   static_cast<v1::InputFile*>(spec.GetReflection()->MutableMessage(&spec, &field))->set_name(path);
 }
 
-void add_numbers(const nlohmann::json& json, const std::string& key,
-                 google::protobuf::RepeatedField<double>& numbers) {
-  if (!json.contains(key)) return;
-  for (const nlohmann::json& number : json[key]) numbers.Add(number.get<double>());
+bool is_pose(const FieldDescriptor& field) {
+  return field.message_type() == v1::Pose::descriptor();
+}
+
+bool is_list_of_dips(const FieldDescriptor& field) {
+  return field.is_repeated() && field.message_type() == v1::DipSetup::descriptor();
+}
+
+/// Returns whether the worker has a flag for a field.
+bool has_flag(const FieldDescriptor& field) {
+  const bool is_list_of_files = field.is_repeated() && field.message_type() != nullptr;
+  if (is_list_of_files && !is_list_of_dips(field)) return false;
+  return !is_reference(field) && field.name() != "threads";
 }
 
 }  // namespace
@@ -38,9 +45,10 @@ const FieldDescriptor& Flags::field(const std::string& name) const {
 }
 
 void Flags::add_file(const FieldDescriptor& field) {
-  const bool is_pose = field.message_type() == v1::Pose::descriptor();
-  const auto take = [this, &field, is_pose](const std::string& path) {
-    is_pose ? static_cast<void>(pose_file_ = path) : set_file(spec_, field, path);
+  const bool holds_poses = is_pose(field) || is_list_of_dips(field);
+  Message& holder = flags::holder_of(spec_, field);
+  const auto take = [this, &holder, &field, holds_poses](const std::string& path) {
+    holds_poses ? static_cast<void>(pose_file_ = path) : set_file(holder, field, path);
   };
   app_.add_option_function<std::string>(flags::flag_of(field), take, rules::flag_help(field))
       ->type_name("FILE");
@@ -48,28 +56,26 @@ void Flags::add_file(const FieldDescriptor& field) {
 
 void Flags::add_field(const FieldDescriptor& field) {
   if (field.message_type() == nullptr) {
-    flags::add_field(app_, spec_, field);
+    flags::add_field(app_, flags::holder_of(spec_, field), field);
   } else {
     add_file(field);
   }
   const v1::FieldRules* const rules = rules::rules_of(field);
-  if (rules != nullptr && rules->required()) require(field.name());
+  if (rules != nullptr && rules->required()) require(field);
 }
 
 void Flags::add_fields(const std::vector<std::string>& only) {
-  const auto& type = *spec_.GetDescriptor();
-  for (int i = 0; i < type.field_count(); ++i) {
-    const FieldDescriptor& field = *type.field(i);
-    const bool is_list_of_files = field.is_repeated() && field.message_type() != nullptr;
-    if (is_list_of_files || is_reference(field) || field.name() == "threads") continue;
+  for (const FieldDescriptor* field : flags::fields_of(*spec_.GetDescriptor())) {
     const bool is_wanted =
-        only.empty() || std::find(only.begin(), only.end(), field.name()) != only.end();
-    if (is_wanted) add_field(field);
+        only.empty() || std::find(only.begin(), only.end(), field->name()) != only.end();
+    if (is_wanted && has_flag(*field)) add_field(*field);
   }
 }
 
-void Flags::require(const std::string& name) {
-  app_.get_option(flags::flag_of(field(name)))->required();
+void Flags::require(const std::string& name) { require(field(name)); }
+
+void Flags::require(const FieldDescriptor& field) {
+  app_.get_option(flags::flag_of(field))->required();
 }
 
 void Flags::require_folders(const std::string& name, const std::string& file) {
@@ -85,15 +91,18 @@ void Flags::require_folders(const std::string& name, const std::string& file) {
       ->type_name("DIR");
 }
 
-Status Flags::read_pose() {
+Status Flags::read_poses() {
   if (pose_file_.empty()) return {};
-  HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(pose_file_));
-  HP_ASSIGN_OR_RETURN(const PoseFile file, parse_pose(json, pose_file_.string()));
-  auto& pose =
-      static_cast<v1::Pose&>(*spec_.GetReflection()->MutableMessage(&spec_, &field("pose")));
-  add_numbers(json, "rotation_wxyz", *pose.mutable_rotation_wxyz());
-  add_numbers(json, "translation_mm", *pose.mutable_translation_mm());
-  set_uncertainty(file.uncertainty, pose);
+  const google::protobuf::Reflection& reflection = *spec_.GetReflection();
+  const FieldDescriptor* const dips = spec_.GetDescriptor()->FindFieldByName("immersions");
+  if (dips != nullptr) {
+    HP_ASSIGN_OR_RETURN(const auto listed, read_immersions_file(pose_file_));
+    for (const ListedDip& dip : listed)
+      set_dip(dip, static_cast<v1::DipSetup&>(*reflection.AddMessage(&spec_, dips)));
+    return {};
+  }
+  HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(pose_file_));
+  set_pose(file, static_cast<v1::Pose&>(*reflection.MutableMessage(&spec_, &field("pose"))));
   return {};
 }
 

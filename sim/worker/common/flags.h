@@ -16,8 +16,8 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// The flags of a verb, from the fields of its spec (proto/flags): `--ink-passes` fills
-/// `ink_passes`.
+/// The flags of a verb, from the fields of its spec and of the flat messages in it (proto/flags):
+/// `--ink-passes` fills `ink_passes`.
 class Flags {
  public:
   /// `app` and `spec` must stay valid while the command line is parsed.
@@ -31,14 +31,17 @@ class Flags {
   /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
   void require_folders(const std::string& field, const std::string& file);
 
-  /// Reads the pose from the file of `--pose`, if the flag was given. Called after parsing. Returns
-  /// the errors of read_pose_file().
-  [[nodiscard]] Status read_pose();
+  /// Reads the pose from the file of `--pose`, or the dips from that of `--immersions`, if the flag
+  /// was given. Called after parsing. Returns the errors of read_pose_file() and
+  /// read_immersions_file().
+  [[nodiscard]] Status read_poses();
+  /// The file of `--pose` or `--immersions`.
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
 
  private:
   void add_field(const google::protobuf::FieldDescriptor& field);
   void add_file(const google::protobuf::FieldDescriptor& field);
+  void require(const google::protobuf::FieldDescriptor& field);
   [[nodiscard]] const google::protobuf::FieldDescriptor& field(const std::string& name) const;
 
   CLI::App& app_;

@@ -2,18 +2,10 @@
 
 #include <sys/resource.h>
 
-#include <cstdint>
-
 #include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
 namespace {
-
-std::int64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{usage.ru_maxrss} * 1024;
-}
 
 Json inputs_json(const std::vector<Input>& inputs) {
   Json out = Json::array();
@@ -46,6 +38,12 @@ Status add_inputs(Report& report, const std::vector<InputPath>& files) {
     report.inputs.push_back({file, std::move(digest)});
   }
   return {};
+}
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
 std::string report_json(const std::string& verb, const Json& findings, const Report& report) {

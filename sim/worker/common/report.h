@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -44,6 +45,9 @@ struct Report {
 /// that are not finite become null.
 [[nodiscard]] std::string report_json(const std::string& verb, const Json& findings,
                                       const Report& report);
+
+/// Returns the largest memory of this process so far.
+[[nodiscard]] std::int64_t peak_memory_bytes();
 
 /// Returns the summary for `--json` on one line: the folder, the artifacts and the verb's main
 /// figures.

@@ -90,6 +90,24 @@ Status write_landed(const std::filesystem::path& path, const mesh::Surface& surf
   return write(path, surface.triangles, std::move(bytes));
 }
 
+Status write_plan(const std::filesystem::path& path, const pipeline::Plan& plan) {
+  const mesh::Surface& surface = plan.surface;
+  const std::size_t dips = plan.dips.size();
+  std::string properties = "property int dip\n";
+  for (const char* name : {"weight", "stretch"}) {
+    for (std::size_t k = 1; k <= dips; ++k)
+      properties += fmt::format("property double {}_{}\n", name, k);
+  }
+  std::string bytes = header(surface.points.size(), surface.triangles.size(), properties);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    put(bytes, surface.points[i]);
+    put(bytes, static_cast<std::int32_t>(plan.dip_at[i]));
+    for (const auto& weights : plan.weights_at) put(bytes, weights[i]);
+    for (const auto& one : plan.dips) put(bytes, one.map.stretch[i]);
+  }
+  return write(path, surface.triangles, std::move(bytes));
+}
+
 Status write_scan(const std::filesystem::path& path, const scan::TriangleMesh& mesh) {
   std::string bytes = header(mesh.points_mm.size(), mesh.triangles.size(), "");
   for (const Eigen::Vector3d& point : mesh.points_mm) put(bytes, point);

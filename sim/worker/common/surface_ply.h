@@ -7,6 +7,7 @@
 #include "sim/base/result.h"
 #include "sim/flow/surface_map.h"
 #include "sim/mesh/surface.h"
+#include "sim/pipeline/plan.h"
 #include "sim/scan/marching.h"
 
 namespace hydroprint::worker {
@@ -22,6 +23,12 @@ namespace hydroprint::worker {
 /// @param colours  per point, sRGB-coded in [0, 1]; NaN where no film arrives, written as white
 [[nodiscard]] Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,
                                   const std::vector<Eigen::Vector3f>& colours);
+
+/// Writes plan.ply: for each point, x, y, z (O, mm), the dip to which it belongs (int, from 1; 0:
+/// none), then for each dip its weight, then for each dip the stretch of its film under Stokes
+/// flow, by which the surface is divided (NaN where no film arrives); then the triangles. Returns
+/// the errors of image::write_artifact().
+[[nodiscard]] Status write_plan(const std::filesystem::path& path, const pipeline::Plan& plan);
 
 /// Writes a scan's surface: x, y, z (mm) for each point, then the triangles. Returns the errors of
 /// image::write_artifact().

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "hydroprint/v1/spec.pb.h"
-#include "sim/image/film/film_image.h"
 #include "sim/image/io/image_file.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/common/artifact_task.h"
@@ -35,19 +33,6 @@ Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFo
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
   out.texture = inputs.path(spec.texture());
   return out;
-}
-
-/// Checks the size of the film image before the dip is computed.
-Status check_film_image(const film::Outline& outline, double dpi) {
-  const image::FilmGrid grid = image::film_grid(outline, 25.4 / dpi);
-  const double pixels = static_cast<double>(grid.columns) * grid.rows;
-  if (pixels <= image::kMaxFilmImage_px) return {};
-  const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
-  return fail_field(
-      Code::kOutOfRange, "dpi",
-      fmt::format(
-          "the film image would have too many pixels ({} x {}). Use at most {} dpi for this film",
-          grid.columns, grid.rows, most_dpi));
 }
 
 class Simulate final : public ArtifactTask {
@@ -87,7 +72,6 @@ class Simulate final : public ArtifactTask {
 
  private:
   [[nodiscard]] pipeline::SimulateOptions pipeline_options(pipeline::DipOptions dip) const;
-  [[nodiscard]] Status add_material_textures(const mesh::Model& model, Report& report) const;
   [[nodiscard]] std::vector<FileTask> files(const pipeline::Simulation& simulation,
                                             const Context& context) const;
 
@@ -107,17 +91,6 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
   out.ink_passes = flow.passes();
   out.images = !flow.map_only;
   return out;
-}
-
-/// Adds the texture files of the model's materials to the report's inputs. Textures embedded in the
-/// model's file are skipped.
-Status Simulate::add_material_textures(const mesh::Model& model, Report& report) const {
-  if (options_.flow.map_only || !options_.texture.empty()) return {};
-  for (const mesh::Material& material : model.materials) {
-    if (!material.texture_bytes.empty()) continue;
-    HP_RETURN_IF_ERROR(add_inputs(report, {{"material_texture", material.texture}}));
-  }
-  return {};
 }
 
 std::vector<FileTask> Simulate::files(const pipeline::Simulation& simulation,
@@ -149,7 +122,8 @@ Status Simulate::compute(OutFolder& folder, Report& report, const Context& conte
   report.warnings = simulation.warnings;
   const Warnings& pose = options_.flow.dip.object.pose_warnings;
   report.warnings.insert(report.warnings.begin(), pose.begin(), pose.end());
-  HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
+  if (!options_.flow.map_only && options_.texture.empty())
+    HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
   if (simulation.images) {
     film_image_px_ = {simulation.images->film.width, simulation.images->film.height};
   }

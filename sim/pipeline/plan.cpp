@@ -1,0 +1,296 @@
+#include "sim/pipeline/plan.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "sim/base/number_text.h"
+#include "sim/base/run_beside.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/image/film/film_image.h"
+#include "sim/mesh/make_surface.h"
+#include "sim/pipeline/dip.h"
+#include "sim/pipeline/figures.h"
+#include "sim/pipeline/ink_passes.h"
+#include "sim/pipeline/read_inputs.h"
+#include "sim/pipeline/stokes_pass.h"
+#include "sim/waterline/body.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+/// Dips whose orientations differ by less, apart from a turn about the vertical, are the same.
+constexpr double kSameOrientation_rad = 0.02;
+/// A share of the surface that no dip reaches, above which there is a warning.
+constexpr double kMostUnreached = 0.001;
+/// All films together are reduced to about this many pixels per side for the combined picture.
+constexpr double kAllFilmsSide_px = image::kPictureFilmSide_px;
+
+DipOptions options_of(const PlanOptions& options, std::size_t k) {
+  DipOptions out = options.dip;
+  out.X_FO = options.immersions[k].X_FO;
+  out.depth_mm = options.immersions[k].depth_mm;
+  out.ink = {};
+  out.map = flow::for_resolution(out.map, options.dpi);
+  return out;
+}
+
+std::string name_of(std::size_t k) { return fmt::format("dip {}", k + 1); }
+
+Error located(Error error, std::size_t k) {
+  error.message = name_of(k) + ": " + error.message;
+  return error;
+}
+
+void add_of_dip(std::size_t k, Warnings more, Warnings& warnings) {
+  for (Warning& warning : more) {
+    const bool has_place = warning.where != "surface" && warning.where != "film";
+    warning.where = name_of(k) + (has_place ? ", " + warning.where : "");
+    warnings.push_back(std::move(warning));
+  }
+}
+
+Result<PlannedDip> stokes_dip(const mesh::Surface& surface, const PlanOptions& options,
+                              std::size_t k, const Context& context) {
+  DipOptions dip = options_of(options, k);
+  dip.map.make_tiles = false;
+  HP_ASSIGN_OR_RETURN(const StokesPass pass, run_stokes_pass(surface, dip, context));
+  HP_ASSIGN_OR_RETURN(flow::FlowMap map, trace_flow_map(pass, pass.stokes, dip, context));
+  PlannedDip out{pass.X_FO, std::move(map.surface), {}};
+  out.figures = figures_of(pass, out.map, dip.profile);
+  return out;
+}
+
+Result<std::vector<PlannedDip>> stokes_dips(const mesh::Surface& surface,
+                                            const PlanOptions& options, const Context& context) {
+  std::vector<PlannedDip> out;
+  for (std::size_t k = 0; k < options.immersions.size(); ++k) {
+    auto dip = stokes_dip(surface, options, k, context);
+    if (!dip) return tl::unexpected(located(std::move(dip.error()), k));
+    out.push_back(std::move(*dip));
+  }
+  return out;
+}
+
+/// Returns the stretch with infinity where no film arrives.
+plan::Stretch stretch_by_dip(const std::vector<PlannedDip>& dips) {
+  plan::Stretch out;
+  for (const PlannedDip& dip : dips) {
+    std::vector<double>& stretch = out.emplace_back(dip.map.stretch);
+    for (double& value : stretch) {
+      if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
+    }
+  }
+  return out;
+}
+
+/// Warns about dips that lower the object in the same orientation, apart from a turn about z.
+void warn_of_repeats(const Plan& plan, Warnings& warnings) {
+  const auto down = [&](std::size_t k) -> Eigen::Vector3d {
+    return plan.dips[k].X_FO.linear().row(2).transpose();
+  };
+  for (std::size_t k = 1; k < plan.dips.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      if (std::acos(std::clamp(down(k).dot(down(j)), -1.0, 1.0)) > kSameOrientation_rad) continue;
+      warnings.push_back({"dip_repeated",
+                          fmt::format("{} lowers the object in the same orientation as {}. Leave "
+                                      "one of them out, or turn the object",
+                                      name_of(k), name_of(j)),
+                          name_of(k)});
+      break;
+    }
+  }
+}
+
+void warn_of_division(const Plan& plan, Warnings& warnings) {
+  warn_of_repeats(plan, warnings);
+  for (std::size_t k = 0; k < plan.dips.size(); ++k) {
+    if (plan.regions.sizes[k].pieces > 0) continue;
+    warnings.push_back(
+        {"dip_without_region",
+         fmt::format("{} prints nothing, because the other dips stretch the film less everywhere. "
+                     "Leave it out, or turn the object",
+                     name_of(k)),
+         name_of(k)});
+  }
+  const double unreached = plan.regions.unreached_share;
+  if (unreached <= kMostUnreached) return;
+  warnings.push_back({"parts_not_reached",
+                      fmt::format("no dip reaches {} of the surface, which stays bare. Turn the "
+                                  "object in one of the dips, or add a dip",
+                                  percent(unreached)),
+                      "surface"});
+}
+
+Warnings warnings_of_plan(const Plan& plan, const PlanOptions& options) {
+  Warnings out = plan.model.warnings;
+  const auto add = [&](const Warnings& more) { out.insert(out.end(), more.begin(), more.end()); };
+  add(plan.surface.warnings);
+  add(plan.paint.warnings());
+  add(warnings_of_profile(options.dip));
+  warn_of_division(plan, out);
+  for (std::size_t k = 0; k < plan.dips.size(); ++k) {
+    const DipFigures& figures = plan.dips[k].figures;
+    add_of_dip(k, warnings_of_waterline(figures, options.dip), out);
+    add_of_dip(k, warnings_of_motion(figures.steps, figures.passed_over_mm, 0), out);
+  }
+  return out;
+}
+
+/// Returns the final dip: for the sheet, with the ink of the image that `draw` draws.
+Result<Dip> final_dip(const Plan& plan, const PlanOptions& options, std::size_t k,
+                      const FilmDrawing& draw, const Context& context) {
+  const DipOptions dip_options = options_of(options, k);
+  HP_ASSIGN_OR_RETURN(StokesPass first, run_stokes_pass(plan.surface, dip_options, context));
+  if (options.dip.film_model == FilmModel::kStokes || options.ink_passes == 0)
+    return dip(plan.model, std::move(first), dip_options, context);
+  return dip_inked(plan.model, std::move(first), draw, options.ink_passes, options.dpi, dip_options,
+                   context);
+}
+
+/// Returns 1 for the points in the region of a dip, else 0.
+std::vector<char> points_of(const Plan& plan, int dip) {
+  std::vector<char> out;
+  for (const int at : plan.dip_at) out.push_back(at == dip ? 1 : 0);
+  return out;
+}
+
+Result<image::RgbImage> draw_stretch(const Dip& dip, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
+                      image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
+  return image::stretch_picture(views, dip.map.surface, context);
+}
+
+/// Returns a third of the area of the triangles at each point, mm2.
+std::vector<double> point_areas_mm2(const mesh::Surface& surface) {
+  std::vector<double> out(surface.points.size(), 0);
+  for (const Eigen::Vector3i& t : surface.triangles) {
+    const auto& p = surface.points;
+    const double third_mm2 = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 6;
+    for (const int v : t) out[static_cast<std::size_t>(v)] += third_mm2;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
+  Plan out;
+  HP_ASSIGN_OR_RETURN(
+      out.model,
+      read_inputs({options.mesh, options.scale, options.texture.has_value(), true}, context));
+  HP_ASSIGN_OR_RETURN(out.surface,
+                      mesh::make_surface(out.model, options.dip.surface_edge_mm, context));
+  const auto read_paint = [&](const Context& reading) {
+    return image::load_paint(out.model, options.texture, reading);
+  };
+  const auto solve = [&](const Context& behind) {
+    return stokes_dips(out.surface, options, behind);
+  };
+  HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, read_paint));
+  out.dips = std::move(both.first);
+  out.paint = std::move(both.second);
+  if (!out.paint.has_colour()) {
+    return fail(Code::kInvalidArgument,
+                options.mesh.string() +
+                    ": has no colours to divide among the dips. Give a texture, or a model with "
+                    "colours");
+  }
+  HP_ASSIGN_OR_RETURN(out.regions,
+                      plan::make_regions(out.surface, stretch_by_dip(out.dips), {}, context));
+  HP_ASSIGN_OR_RETURN(out.weights, plan::BlendWeights::create(out.surface, out.regions,
+                                                              options.blend_mm, context));
+  out.dip_at = plan::dips_at_points(out.surface, out.regions.fragments);
+  HP_ASSIGN_OR_RETURN(out.weights_at, out.weights.at_points(out.surface, context));
+  out.warnings = warnings_of_plan(out, options);
+  return out;
+}
+
+Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int number,
+                           const Context& context) {
+  const auto k = static_cast<std::size_t>(number - 1);
+  const film::Outline& outline = options.dip.outline;
+  const image::Weight weight = [&](int triangle, const Eigen::Vector3d& at) {
+    return static_cast<float>(plan.weights.of_dip(number, triangle, at));
+  };
+  const auto draw = [&](const mesh::Surface& surface,
+                        const std::vector<flow::MappedTriangle>& tiles, double dpi,
+                        const Context& drawing) -> Result<DipImages> {
+    DipImages images;
+    HP_ASSIGN_OR_RETURN(images.complete, image::film_image(surface, tiles, plan.paint, outline, dpi,
+                                                           drawing));
+    HP_ASSIGN_OR_RETURN(images.mask, image::film_mask(tiles, weight, outline, dpi, drawing));
+    images.film = image::seen_through(images.mask, images.complete);
+    return images;
+  };
+  const FilmDrawing draw_film = [&](const auto& surface, const auto& tiles, double dpi,
+                                    const Context& drawing) -> Result<image::RgbImage> {
+    HP_ASSIGN_OR_RETURN(DipImages images, draw(surface, tiles, dpi, drawing));
+    return std::move(images.film);
+  };
+  auto found = final_dip(plan, options, k, draw_film, context);
+  if (!found) return tl::unexpected(located(std::move(found.error()), k));
+  Dip& dip = *found;
+
+  HP_ASSIGN_OR_RETURN(DipImages images,
+                      draw(dip.surface, dip.map.tiles, options.dpi, context));
+  context.progress("pictures", 0);
+  HP_ASSIGN_OR_RETURN(images.stretch, draw_stretch(dip, context));
+  const double most_px = std::max(
+      1000.0, kAllFilmsSide_px / std::sqrt(static_cast<double>(options.immersions.size())));
+  HP_ASSIGN_OR_RETURN(image::FilmTexture look,
+                      image::FilmTexture::from_image(images.film, outline,
+                                                     static_cast<int>(most_px), context));
+  DipPrint out{std::move(images), std::move(look), std::move(dip.map.surface), dip.figures, {}};
+  Pose X_FO = dip.X_FO;
+  measure_part(plan.surface, waterline::place(plan.surface, X_FO), out.map, options.dip.profile,
+               points_of(plan, number), out.own);
+  add_of_dip(k, warnings_of_strain(out.own, options.dip), out.warnings);
+  add_of_dip(k, warnings_of_motion(out.own.steps, {}, out.own.unsettled_mm), out.warnings);
+  return out;
+}
+
+Result<image::RgbImage> combined_picture(const Plan& plan, const std::vector<DipPrint>& prints,
+                                         const Context& context) {
+  context.progress("pictures", 0);
+  const auto whole = image::whole_triangles(
+      plan.surface, [&](std::size_t t) { return plan.regions.fragments.reach[t] != 0; });
+  std::vector<image::LandedFilm> films;
+  for (const DipPrint& print : prints) films.push_back({print.look, print.map.film_mm});
+  HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
+                      image::find_views(plan.surface, plan.dips.front().X_FO, whole, context));
+  return image::combined_picture(views, films, context);
+}
+
+std::optional<StretchQuantiles> stretch_of(const Plan& plan, const std::vector<DipPrint>& prints,
+                                           int dip) {
+  const std::vector<double> areas_mm2 = point_areas_mm2(plan.surface);
+  std::vector<std::pair<double, double>> all;  // stretch, area
+  double total_mm2 = 0;
+  for (std::size_t v = 0; v < plan.dip_at.size(); ++v) {
+    const int at = plan.dip_at[v];
+    if (at == 0 || (dip != 0 && at != dip)) continue;
+    const double stretch = prints[static_cast<std::size_t>(at - 1)].map.stretch[v];
+    if (!std::isfinite(stretch)) continue;
+    all.emplace_back(stretch, areas_mm2[v]);
+    total_mm2 += areas_mm2[v];
+  }
+  if (all.empty()) return std::nullopt;
+  std::sort(all.begin(), all.end());
+  const auto quantile = [&](double share) {
+    double below_mm2 = 0;
+    for (const auto& [stretch, area_mm2] : all) {
+      below_mm2 += area_mm2;
+      if (below_mm2 >= share * total_mm2) return stretch;
+    }
+    return all.back().first;
+  };
+  return StretchQuantiles{quantile(0.5), quantile(0.95), all.back().first};
+}
+
+}  // namespace hydroprint::pipeline

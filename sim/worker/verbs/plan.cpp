@@ -1,0 +1,261 @@
+#include "sim/worker/verbs/plan.h"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hydroprint/v1/report.pb.h"
+#include "proto/write_json.h"
+#include "sim/base/artifact_file.h"
+#include "sim/base/number_text.h"
+#include "sim/image/io/image_file.h"
+#include "sim/pipeline/plan.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/artifact_writer.h"
+#include "sim/worker/common/fields.h"
+#include "sim/worker/common/film_flow.h"
+#include "sim/worker/common/surface_ply.h"
+#include "sim/worker/verbs/plan_report.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(Each point of the object is printed by the dip that stretches the film least there, and the pictures of two dips blend
+where they meet. For each dip N: film-N.png is the image to print; stretch-N.png, complete-N.png and mask-N.png show how
+it was made. combined.png shows the object after all dips.
+
+three.json: a list of poses, each with its depth:
+  [{"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0], "depth_mm": "full"},
+   {"rotation_wxyz": [0, 1, 0, 0], "translation_mm": [0, 0, 0], "depth_mm": 40}]
+
+Examples:
+  hydroprint-worker plan --mesh spot.obj --texture spot.png --scale 50 --immersions three.json --out plan
+  hydroprint-worker plan --mesh ball.obj --film circle:105 --immersions two.json --blend-mm 8 --out plan
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+/// Options of a plan: those of one dip without its pose and depth, and the dips.
+struct PlanVerbOptions {
+  FlowOptions flow;
+  std::filesystem::path texture;          ///< empty: the model's own colours
+  std::filesystem::path immersions_file;  ///< empty: not from a file
+  std::vector<pipeline::Immersion> immersions;
+  Warnings pose_warnings;
+  double blend_mm = plan::kBlend_mm;
+  v1::Plan plan;  ///< without mesh_sha256, and with the poses as given
+};
+
+/// Sets every field of a film that is not set to its default.
+void fill_defaults(const FlowOptions& flow, v1::FilmSetup& film) {
+  film.set_film(flow.dip.object.film);
+  film.set_dip_speed_mm_per_s(flow.dip.dip_speed_mm_per_s);
+  film.set_model(flow.is_sheet() ? v1::MODEL_SHEET : v1::MODEL_STOKES);
+  film.set_ink_passes(flow.is_sheet() ? flow.passes() : 0);
+}
+
+Result<FlowOptions> read_flow_options(const v1::PlanSpec& spec, const InputFolder& inputs) {
+  FlowOptions out;
+  const v1::FilmSetup& film = spec.film();
+  HP_ASSIGN_OR_RETURN(out.dip.object.mesh, inputs.required("object.mesh", spec.object().mesh()));
+  if (spec.object().has_scale()) out.dip.object.scale = spec.object().scale();
+  HP_ASSIGN_OR_RETURN(out.dip.object.film, film_of(film, inputs));
+  out.dip.profile = inputs.path(film.profile());
+  if (film.has_dip_speed_mm_per_s()) out.dip.dip_speed_mm_per_s = film.dip_speed_mm_per_s();
+  if (spec.has_dpi()) out.dpi = spec.dpi();
+  if (film.has_ink_passes()) out.ink_passes = film.ink_passes();
+  HP_RETURN_IF_ERROR(choose(out, film.model(), film.inertia(), v1::ARTIFACT_SET_ALL));
+  return out;
+}
+
+Status read_immersions(const v1::PlanSpec& spec, PlanVerbOptions& out) {
+  if (spec.immersions().empty())
+    return fail_field(Code::kInvalidArgument, "immersions", "no dips. List at least one");
+  for (const v1::DipSetup& dip : spec.immersions()) {
+    pipeline::Immersion& immersion = out.immersions.emplace_back();
+    if (dip.has_depth_mm()) immersion.depth_mm = dip.depth_mm();
+    if (!dip.has_pose()) continue;
+    HP_ASSIGN_OR_RETURN(immersion.X_FO, pose_of(dip.pose()));
+    for (Warning& warning : pose_warnings_of(dip.pose())) {
+      warning.where = fmt::format("dip {}, {}", out.immersions.size(), warning.where);
+      out.pose_warnings.push_back(std::move(warning));
+    }
+  }
+  return {};
+}
+
+Result<PlanVerbOptions> read_options(const v1::PlanSpec& spec, const InputFolder& inputs) {
+  PlanVerbOptions out;
+  HP_ASSIGN_OR_RETURN(out.flow, read_flow_options(spec, inputs));
+  out.texture = inputs.path(spec.object().texture());
+  out.immersions_file = inputs.pose_file();
+  HP_RETURN_IF_ERROR(read_immersions(spec, out));
+  if (spec.has_blend_mm()) out.blend_mm = spec.blend_mm();
+  out.plan.set_scale(out.flow.dip.object.scale);
+  *out.plan.mutable_film() = spec.film();
+  fill_defaults(out.flow, *out.plan.mutable_film());
+  out.plan.set_dpi(out.flow.dpi);
+  out.plan.set_blend_mm(out.blend_mm);
+  *out.plan.mutable_immersions() = spec.immersions();
+  return out;
+}
+
+class PlanTask final : public ArtifactTask {
+ public:
+  explicit PlanTask(PlanVerbOptions options) : ArtifactTask("plan"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override {
+    return options_.flow.dip.object.mesh.string();
+  }
+  [[nodiscard]] std::string memory_tip() const override { return "a smaller model, a lower --dpi"; }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return plan_stages(options_.flow, options_.immersions.size());
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    const ObjectOptions& object = options_.flow.dip.object;
+    return {{"mesh", object.mesh},
+            {"texture", options_.texture},
+            {"immersions", options_.immersions_file},
+            {"profile", options_.flow.dip.profile},
+            film_file(object.film)};
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Result<std::string> report_text(const Report& report) const override {
+    v1::PlanReport out = report_;
+    set_run(report, out);
+    return json_file_of(out);
+  }
+  [[nodiscard]] Json figures() const override;
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  [[nodiscard]] pipeline::PlanOptions pipeline_options(pipeline::DipOptions dip) const;
+  [[nodiscard]] Status write_plan_files(const pipeline::Plan& plan,
+                                        const std::filesystem::path& folder) const;
+  [[nodiscard]] Result<std::vector<pipeline::DipPrint>> print_dips(
+      const pipeline::Plan& plan, const pipeline::PlanOptions& options,
+      const std::filesystem::path& folder, Report& report, const Context& context) const;
+
+  PlanVerbOptions options_;
+  v1::PlanReport report_;  ///< its findings, after compute()
+};
+
+pipeline::PlanOptions PlanTask::pipeline_options(pipeline::DipOptions dip) const {
+  const FlowOptions& flow = options_.flow;
+  pipeline::PlanOptions out;
+  out.mesh = flow.dip.object.mesh;
+  out.scale = flow.dip.object.scale;
+  if (!options_.texture.empty()) out.texture = options_.texture;
+  out.dip = std::move(dip);
+  out.immersions = options_.immersions;
+  out.dpi = flow.dpi;
+  out.ink_passes = flow.is_sheet() ? flow.passes() : 0;
+  out.blend_mm = options_.blend_mm;
+  return out;
+}
+
+Status PlanTask::write_plan_files(const pipeline::Plan& plan,
+                                  const std::filesystem::path& folder) const {
+  HP_ASSIGN_OR_RETURN(const std::string text, json_file_of(report_.parameters()));
+  HP_RETURN_IF_ERROR(image::write_artifact(folder / "plan.json", text));
+  return write_plan(folder / "plan.ply", plan);
+}
+
+/// Prints one dip after the other, and writes its images before the next one needs the memory.
+Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Plan& plan,
+                                                             const pipeline::PlanOptions& options,
+                                                             const std::filesystem::path& folder,
+                                                             Report& report,
+                                                             const Context& context) const {
+  std::vector<pipeline::DipPrint> out;
+  for (int n = 1; n <= static_cast<int>(plan.dips.size()); ++n) {
+    HP_ASSIGN_OR_RETURN(pipeline::DipPrint print, pipeline::print_dip(plan, options, n, context));
+    const pipeline::DipImages& images = print.images;
+    const auto file = [&](const char* name, const image::RgbImage& image, double dpi) {
+      return png_file(fmt::format("{}-{}.png", name, n), image, dpi, context);
+    };
+    HP_ASSIGN_OR_RETURN(const auto names,
+                        write_files(folder,
+                                    {file("stretch", images.stretch, image::kScreenDpi),
+                                     file("complete", images.complete, options.dpi),
+                                     file("mask", images.mask, options.dpi),
+                                     file("film", images.film, options.dpi)},
+                                    context));
+    report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
+    report.warnings.insert(report.warnings.end(), print.warnings.begin(), print.warnings.end());
+    print.images = {};
+    out.push_back(std::move(print));
+  }
+  return out;
+}
+
+Status PlanTask::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, report, context));
+  HP_RETURN_IF_ERROR(check_film_image(dip.outline, options_.flow.dpi));
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  const pipeline::PlanOptions options = pipeline_options(std::move(dip));
+  HP_ASSIGN_OR_RETURN(const pipeline::Plan plan, pipeline::make_plan(options, context));
+  report.warnings = options_.pose_warnings;
+  report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  if (options_.texture.empty()) HP_RETURN_IF_ERROR(add_material_textures(plan.model, report));
+
+  *report_.mutable_parameters() = options_.plan;
+  report_.mutable_parameters()->set_mesh_sha256(report.inputs.front().digest.sha256);
+  set_poses(plan, *report_.mutable_parameters());
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write_plan_files(plan, folder.partial()));
+  report.artifacts = {"plan.json", "plan.ply"};
+  HP_ASSIGN_OR_RETURN(const auto prints,
+                      print_dips(plan, options, folder.partial(), report, context));
+  HP_ASSIGN_OR_RETURN(const image::RgbImage combined,
+                      pipeline::combined_picture(plan, prints, context));
+  HP_ASSIGN_OR_RETURN(
+      const auto names,
+      write_files(folder.partial(),
+                  {png_file("combined.png", combined, image::kScreenDpi, context)}, context));
+  report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
+  set_findings(plan, prints, report_);
+  return {};
+}
+
+Json PlanTask::figures() const {
+  Json shares = Json::array();
+  for (const v1::PlanReport::Dip& dip : report_.immersions()) shares.push_back(dip.share());
+  return {{"shares", shares},
+          {"unreached_share", report_.unreached_share()},
+          {"seam_mm", report_.seam_mm()}};
+}
+
+std::string PlanTask::summary(const Report& report, const std::filesystem::path& dir) const {
+  std::string out = artifacts_line(dir, report);
+  for (int k = 0; k < report_.immersions_size(); ++k) {
+    const v1::PlanReport::Dip& of_dip = report_.immersions(k);
+    out += fmt::format("dip {}: prints {} of the surface, maximum stretch {}\n", k + 1,
+                       percent(of_dip.share()), three_digits(of_dip.stretch().max()));
+  }
+  return out + fmt::format("no dip reaches {} of the surface; {:.1f} s\n",
+                           percent(report_.unreached_share()), report.total_s);
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(PlanVerbOptions options,
+                      read_options(static_cast<const v1::PlanSpec&>(spec), inputs));
+  return std::make_unique<PlanTask>(std::move(options));
+}
+
+}  // namespace
+
+Verb plan_verb() {
+  return {"plan",          "Divide one picture among several dips of an object",
+          kExamples,       &v1::PlanSpec::default_instance(),
+          add_field_flags, plan};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,113 @@
+#include "sim/worker/verbs/plan_report.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "hydroprint/v1/report.pb.h"
+#include "sim/text/utf8.h"
+
+namespace hydroprint::worker {
+namespace {
+
+void set_pose(const Pose& X_FO, v1::Pose& out) {
+  const Eigen::Quaterniond q(X_FO.linear());
+  out.clear_rotation_wxyz();
+  for (const double x : {q.w(), q.x(), q.y(), q.z()}) out.add_rotation_wxyz(x);
+  out.clear_translation_mm();
+  for (const double x : X_FO.translation()) out.add_translation_mm(x);
+}
+
+/// Returns the code of the .proto file for a code in snake_case.
+v1::ReportWarning::Code code_of(std::string code) {
+  for (char& c : code) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  v1::ReportWarning::Code out = v1::ReportWarning::CODE_UNSPECIFIED;
+  (void)v1::ReportWarning::Code_Parse(code, &out);
+  return out;
+}
+
+void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch,
+                 v1::PlanReport::Stretch& out) {
+  if (!stretch) return;
+  out.set_p50(stretch->p50);
+  out.set_p95(stretch->p95);
+  out.set_max(stretch->max);
+}
+
+double surface_area_mm2(const mesh::Surface& surface) {
+  double sum = 0;
+  for (const Eigen::Vector3i& t : surface.triangles) {
+    const auto& p = surface.points;
+    sum += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+  }
+  return sum;
+}
+
+void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
+              v1::PlanReport& out) {
+  const double area_mm2 = surface_area_mm2(plan.surface);
+  for (std::size_t k = 0; k < plan.dips.size(); ++k) {
+    v1::PlanReport::Dip& dip = *out.add_immersions();
+    const pipeline::DipFigures& figures = plan.dips[k].figures;
+    const plan::RegionSize& region = plan.regions.sizes[k];
+    dip.set_depth_mm(figures.depth_mm);
+    dip.set_stopped_at_film_edge(figures.stopped_at_edge);
+    dip.set_reached_share(figures.coverage);
+    dip.set_share(area_mm2 > 0 ? region.area_mm2 / area_mm2 : 0);
+    dip.set_area_mm2(region.area_mm2);
+    dip.set_pieces(region.pieces);
+    set_stretch(stretch_of(plan, prints, static_cast<int>(k) + 1), *dip.mutable_stretch());
+  }
+}
+
+/// JSON must be UTF-8, but file names may contain other bytes.
+std::string utf8(const std::string& text) { return text::encode_utf8(text::decode_utf8(text)); }
+
+}  // namespace
+
+void set_poses(const pipeline::Plan& plan, v1::Plan& out) {
+  for (std::size_t k = 0; k < plan.dips.size(); ++k)
+    set_pose(plan.dips[k].X_FO, *out.mutable_immersions(static_cast<int>(k))->mutable_pose());
+}
+
+void set_findings(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
+                  v1::PlanReport& out) {
+  v1::PlanReport::Mesh& mesh = *out.mutable_mesh();
+  mesh.set_vertices(static_cast<std::int32_t>(plan.model.vertices.size()));
+  mesh.set_triangles(static_cast<std::int32_t>(plan.model.triangles.size()));
+  mesh.set_surface_points(static_cast<std::int32_t>(plan.surface.points.size()));
+  mesh.set_surface_triangles(static_cast<std::int32_t>(plan.surface.triangles.size()));
+  mesh.set_closed(plan.surface.closed);
+  set_dips(plan, prints, out);
+  out.set_unreached_share(plan.regions.unreached_share);
+  set_stretch(stretch_of(plan, prints, 0), *out.mutable_stretch());
+  out.set_seam_mm(plan.regions.seam_mm);
+}
+
+void set_run(const Report& report, v1::PlanReport& out) {
+  out.set_program("hydroprint-worker");
+  out.set_version(HYDROPRINT_VERSION);
+  out.set_verb("plan");
+  for (const Input& input : report.inputs) {
+    v1::ReportInput& added = *out.add_inputs();
+    added.set_role(input.file.role);
+    added.set_path(utf8(input.file.path.string()));
+    added.set_sha256(input.digest.sha256);
+    added.set_size_bytes(static_cast<double>(input.digest.size_bytes));
+  }
+  out.set_threads(report.threads);
+  for (const auto& [stage, seconds] : report.stage_seconds)
+    (*out.mutable_stage_seconds())[stage] = seconds;
+  out.set_total_seconds(report.total_s);
+  out.set_peak_memory_bytes(static_cast<double>(peak_memory_bytes()));
+  for (const Warning& warning : report.warnings) {
+    v1::ReportWarning& added = *out.add_warnings();
+    added.set_code(code_of(warning.code));
+    added.set_message(utf8(warning.message));
+    added.set_where(utf8(warning.where));
+  }
+  for (const std::string& name : report.artifacts) out.add_artifacts(name);
+}
+
+}  // namespace hydroprint::worker
