@@ -28,8 +28,6 @@ namespace {
 constexpr double kSameOrientation_rad = 0.02;
 /// A share of the surface that no dip reaches, above which there is a warning.
 constexpr double kMostUnreached = 0.001;
-/// All films together are reduced to about this many pixels per side for the combined picture.
-constexpr double kAllFilmsSide_px = image::kPictureFilmSide_px;
 
 DipOptions options_of(const PlanOptions& options, std::size_t k) {
   DipOptions out = options.dip;
@@ -160,10 +158,21 @@ std::vector<char> points_of(const Plan& plan, int dip) {
   return out;
 }
 
-Result<image::RgbImage> draw_stretch(const Dip& dip, const Context& context) {
+/// Draws the pictures of a dip: its stretch, and its ink on the object as all dips show it.
+Status draw_pictures(const Plan& plan, const Dip& dip, const film::Outline& outline, DipPrint& out,
+                     const Context& context) {
+  context.progress("pictures", 0);
   HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
-  return image::stretch_picture(views, dip.map.surface, context);
+  HP_ASSIGN_OR_RETURN(out.images.stretch, image::stretch_picture(views, dip.map.surface, context));
+  HP_ASSIGN_OR_RETURN(const auto film,
+                      image::FilmTexture::from_image(out.images.film, outline,
+                                                     image::kPictureFilmSide_px, context));
+  HP_ASSIGN_OR_RETURN(
+      const image::ObjectViews finished,
+      image::find_views(dip.surface, plan.dips.front().X_FO, dip.map.tiles, context));
+  HP_ASSIGN_OR_RETURN(out.ink, image::landed_ink(finished, film, context));
+  return {};
 }
 
 /// Returns a third of the area of the triangles at each point, mm2.
@@ -203,8 +212,8 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
   }
   HP_ASSIGN_OR_RETURN(out.regions,
                       plan::make_regions(out.surface, stretch_by_dip(out.dips), {}, context));
-  HP_ASSIGN_OR_RETURN(out.weights, plan::BlendWeights::create(out.surface, out.regions,
-                                                              options.blend_mm, context));
+  HP_ASSIGN_OR_RETURN(
+      out.weights, plan::BlendWeights::create(out.surface, out.regions, options.blend_mm, context));
   out.dip_at = plan::dips_at_points(out.surface, out.regions.fragments);
   HP_ASSIGN_OR_RETURN(out.weights_at, out.weights.at_points(out.surface, context));
   out.warnings = warnings_of_plan(out, options);
@@ -222,8 +231,8 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
                         const std::vector<flow::MappedTriangle>& tiles, double dpi,
                         const Context& drawing) -> Result<DipImages> {
     DipImages images;
-    HP_ASSIGN_OR_RETURN(images.complete, image::film_image(surface, tiles, plan.paint, outline, dpi,
-                                                           drawing));
+    HP_ASSIGN_OR_RETURN(images.complete,
+                        image::film_image(surface, tiles, plan.paint, outline, dpi, drawing));
     HP_ASSIGN_OR_RETURN(images.mask, image::film_mask(tiles, weight, outline, dpi, drawing));
     images.film = image::seen_through(images.mask, images.complete);
     return images;
@@ -237,16 +246,11 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
   if (!found) return tl::unexpected(located(std::move(found.error()), k));
   Dip& dip = *found;
 
-  HP_ASSIGN_OR_RETURN(DipImages images,
-                      draw(dip.surface, dip.map.tiles, options.dpi, context));
-  context.progress("pictures", 0);
-  HP_ASSIGN_OR_RETURN(images.stretch, draw_stretch(dip, context));
-  const double most_px = std::max(
-      1000.0, kAllFilmsSide_px / std::sqrt(static_cast<double>(options.immersions.size())));
-  HP_ASSIGN_OR_RETURN(image::FilmTexture look,
-                      image::FilmTexture::from_image(images.film, outline,
-                                                     static_cast<int>(most_px), context));
-  DipPrint out{std::move(images), std::move(look), std::move(dip.map.surface), dip.figures, {}};
+  DipPrint out;
+  HP_ASSIGN_OR_RETURN(out.images, draw(dip.surface, dip.map.tiles, options.dpi, context));
+  HP_RETURN_IF_ERROR(draw_pictures(plan, dip, outline, out, context));
+  out.map = std::move(dip.map.surface);
+  out.own = dip.figures;
   Pose X_FO = dip.X_FO;
   measure_part(plan.surface, waterline::place(plan.surface, X_FO), out.map, options.dip.profile,
                points_of(plan, number), out.own);
@@ -255,16 +259,12 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
   return out;
 }
 
-Result<image::RgbImage> combined_picture(const Plan& plan, const std::vector<DipPrint>& prints,
+Result<image::RgbImage> combined_picture(const Plan& plan, const image::LandedInk& ink,
                                          const Context& context) {
   context.progress("pictures", 0);
-  const auto whole = image::whole_triangles(
-      plan.surface, [&](std::size_t t) { return plan.regions.fragments.reach[t] != 0; });
-  std::vector<image::LandedFilm> films;
-  for (const DipPrint& print : prints) films.push_back({print.look, print.map.film_mm});
   HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
-                      image::find_views(plan.surface, plan.dips.front().X_FO, whole, context));
-  return image::combined_picture(views, films, context);
+                      image::find_views(plan.surface, plan.dips.front().X_FO, {}, context));
+  return image::ink_picture(views, ink, context);
 }
 
 std::optional<StretchQuantiles> stretch_of(const Plan& plan, const std::vector<DipPrint>& prints,

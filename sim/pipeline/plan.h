@@ -8,7 +8,7 @@
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
 #include "sim/flow/surface_map.h"
-#include "sim/image/film/film_texture.h"
+#include "sim/image/figures/landed_ink.h"
 #include "sim/image/io/rgb_image.h"
 #include "sim/image/texture/paint.h"
 #include "sim/mesh/model.h"
@@ -30,7 +30,7 @@ struct PlanOptions {
   std::filesystem::path mesh;
   double scale = 1;                              ///< millimetres per model unit
   std::optional<std::filesystem::path> texture;  ///< nullopt: the model's own colours
-  DipOptions dip;  ///< of all dips; its pose, depth and ink are not used
+  DipOptions dip;                     ///< of all dips; its pose, depth and ink are not used
   std::vector<Immersion> immersions;  ///< 1 to plan::kMaxDips
   double dpi = 300;
   int ink_passes = 1;  ///< see SimulateOptions
@@ -73,10 +73,10 @@ struct DipImages {
 /// One dip of a plan with its final flow.
 struct DipPrint {
   DipImages images;
-  image::FilmTexture look;  ///< the film image, reduced for pictures
-  flow::SurfaceMap map;     ///< final: with the ink of the image if the model is the sheet
-  DipFigures own;           ///< its shares and stretch are those of the dip's region
-  Warnings warnings;        ///< where the result in the region cannot be trusted
+  image::LandedInk ink;  ///< that its film leaves on the object, seen as in combined_picture()
+  flow::SurfaceMap map;  ///< final: with the ink of the image if the model is the sheet
+  DipFigures own;        ///< its shares and stretch are those of the dip's region
+  Warnings warnings;     ///< where the result in the region cannot be trusted
 };
 
 /// Computes the images of a dip, from 1: for the sheet, with the ink of the image itself.
@@ -84,8 +84,9 @@ struct DipPrint {
                                          const Context& context);
 
 /// Draws the object after all dips, in the orientation of the first one.
+/// @param ink  of all dips: see image::add_ink()
 [[nodiscard]] Result<image::RgbImage> combined_picture(const Plan& plan,
-                                                       const std::vector<DipPrint>& prints,
+                                                       const image::LandedInk& ink,
                                                        const Context& context);
 
 /// Quantiles of the stretch over an area.
@@ -93,7 +94,8 @@ struct StretchQuantiles {
   double p50 = 0, p95 = 0, max = 0;
 };
 
-/// Returns the stretch over the surface, each point with its dip, by area; nullopt if there is none.
+/// Returns the stretch over the surface, each point with its dip, by area; nullopt if there is
+/// none.
 /// @param dip  only the region of this dip; 0: of all dips
 [[nodiscard]] std::optional<StretchQuantiles> stretch_of(const Plan& plan,
                                                          const std::vector<DipPrint>& prints,

@@ -21,11 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 17> kArtifacts = {
-    "film.png",        "film_map.exr",  "film_profile.toml", "landed.ply",    "landed.png",
-    "placement.pdf",   "predicted.png", "print.pdf",         "print.png",     "print.tif",
-    "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
-    "surface_map.ply", "wrinkles.png"};
+constexpr std::array<std::string_view, 20> kArtifacts = {
+    "combined.png",  "film.png",      "film_map.exr", "film_profile.toml", "landed.ply",
+    "landed.png",    "plan.json",     "plan.ply",     "placement.pdf",     "predicted.png",
+    "print.pdf",     "print.png",     "print.tif",    "report.html",       "report.json",
+    "residuals.csv", "residuals.png", "stretch.png",  "surface_map.ply",   "wrinkles.png"};
+
+/// Names before the numbers of pictures, sheets, frames and dips.
+constexpr std::array<std::string_view, 7> kNumbered = {"complete-", "film-",    "frame-",   "mask-",
+                                                       "print-",    "stretch-", "validate-"};
 
 /// Returns true for report.json and frames.json. Every run writes one of them, so they mark a
 /// folder as an artifact folder.
@@ -33,12 +37,11 @@ bool is_record(std::string_view name) { return name == "report.json" || name == 
 
 /// Returns whether a run may write a file with this name.
 bool is_artifact_name(std::string_view name) {
-  // `validate`, `print-image` and cameras write numbered pictures, sheets and frames.
-  return is_record(name) ||
-         std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
-         ((name.starts_with("validate-") || name.starts_with("frame-")) &&
-          name.ends_with(".png")) ||
-         (name.starts_with("print-") && (name.ends_with(".png") || name.ends_with(".tif")));
+  const auto begins = [name](std::string_view start) { return name.starts_with(start); };
+  const bool is_numbered = std::any_of(kNumbered.begin(), kNumbered.end(), begins) &&
+                           (name.ends_with(".png") || name.ends_with(".tif"));
+  return is_record(name) || is_numbered ||
+         std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end();
 }
 
 constexpr std::string_view kPartial = ".partial-";

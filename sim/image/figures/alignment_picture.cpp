@@ -52,7 +52,7 @@ Result<RgbImage> alignment_picture(const ObjectViews& views,
   std::vector<Eigen::Vector3f> colours;
   for (const double x : off_mm)
     colours.push_back(linear_from_srgb(diverging((x - range.low) / (range.high - range.low))));
-  const auto draw = [&](ViewDrawing& drawing) {
+  const auto draw = [&](ViewDrawing& drawing, std::size_t) {
     drawing.draw_bare([](int, int) { return kObject; });
     drawing.draw_points(points_O, colours, kPoint_mm, kDeep_mm);
   };

@@ -37,7 +37,7 @@ Eigen::Vector3f hatch(int x, int y) {
 }
 
 Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px, const Context& context,
-                            const std::function<void(ViewDrawing&)>& draw) {
+                            const std::function<void(ViewDrawing&, std::size_t)>& draw) {
   HP_ASSIGN_OR_RETURN(const text::Font* const font, text::Font::standard());
   const int cell_height = views.height_px + kCaption_px + kMargin_px;
   const int rows = static_cast<int>(views.seen.size()) / views.columns;
@@ -51,7 +51,7 @@ Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px, const Conte
         kMargin_px + static_cast<int>(v) % views.columns * (views.width_px + kMargin_px);
     const int top = kMargin_px + static_cast<int>(v) / views.columns * cell_height;
     ViewDrawing drawing(views.seen[v]);
-    draw(drawing);
+    draw(drawing, v);
     drawing.put_on(sheet, left, top);
     const std::string& name = views.names[v];
     const double middle = left + 0.5 * views.width_px;

@@ -15,11 +15,14 @@ namespace hydroprint::image {
 /// Height of the space for a legend below the views of a sheet.
 inline constexpr int kLegend_px = 110;
 
-/// Draws the standard views on one sheet, with their names, calling `draw` for each, and keeps
-/// space for a legend below.
-[[nodiscard]] Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px,
-                                          const Context& context,
-                                          const std::function<void(ViewDrawing&)>& draw);
+/// Linear colour of an object without film.
+inline const Eigen::Vector3f kBareObject(0.72F, 0.72F, 0.71F);
+
+/// Draws the standard views on one sheet, with their names, calling `draw` with the drawing and the
+/// index of each, and keeps space for a legend below.
+[[nodiscard]] Result<RgbImage> draw_sheet(
+    const ObjectViews& views, int legend_px, const Context& context,
+    const std::function<void(ViewDrawing&, std::size_t)>& draw);
 
 /// Returns the linear colour, at a sample, of diagonal stripes in two greys. The stripes mark areas
 /// without a value.

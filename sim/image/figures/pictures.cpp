@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/image/figures/contact_sheet.h"
@@ -18,7 +17,6 @@ namespace {
 /// Upper end of the stretch scale. Larger stretches do not matter, because film tears at about 3.
 /// At the poles of spheres stretch is in the hundreds and would use up the whole scale.
 constexpr double kMostStretch = 4;
-const Eigen::Vector3f kBareObject(0.72F, 0.72F, 0.71F);  // linear
 
 /// Colours of evenly increasing lightness, distinguishable with every kind of colour vision: evenly
 /// spaced control points, sRGB.
@@ -92,11 +90,11 @@ Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quan
       return linear_scale_colour(t);
     };
   };
-  HP_ASSIGN_OR_RETURN(RgbImage sheet,
-                      draw_sheet(views, kLegend_px, context, [&](ViewDrawing& drawing) {
-                        drawing.draw_tiles(colour_of);
-                        drawing.draw_bare(hatch);
-                      }));
+  HP_ASSIGN_OR_RETURN(RgbImage sheet, draw_sheet(views, kLegend_px, context,
+                                                 [&](ViewDrawing& drawing, std::size_t) {
+                                                   drawing.draw_tiles(colour_of);
+                                                   drawing.draw_bare(hatch);
+                                                 }));
   HP_RETURN_IF_ERROR(draw_legend(sheet, {quantity.label, range, scale_colour, quantity.hatched}));
   return sheet;
 }
@@ -133,45 +131,7 @@ Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& 
       return brush.at(x + 0.5, y + 0.5);
     };
   };
-  return draw_sheet(views, 0, context, [&](ViewDrawing& drawing) {
-    drawing.draw_tiles(colour_of);
-    drawing.draw_bare([](int, int) { return kBareObject; });
-  });
-}
-
-std::vector<flow::MappedTriangle> whole_triangles(
-    const mesh::Surface& surface, const std::function<bool(std::size_t)>& is_covered) {
-  std::vector<flow::MappedTriangle> out;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (!is_covered(t)) continue;
-    flow::MappedTriangle tile;
-    tile.triangle = static_cast<int>(t);
-    tile.film_mm.fill(Eigen::Vector2d::Zero());
-    tile.barycentric = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(),
-                        Eigen::Vector3f::UnitZ()};
-    out.push_back(tile);
-  }
-  return out;
-}
-
-Result<RgbImage> combined_picture(const ObjectViews& views, const std::vector<LandedFilm>& films,
-                                  const Context& context) {
-  const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
-    const Eigen::Vector3i& v = views.surface.triangles[static_cast<std::size_t>(tile.triangle)];
-    std::vector<Brush> brushes;
-    for (const LandedFilm& film : films) {
-      const Corners landed = {film.film_mm[v[0]], film.film_mm[v[1]], film.film_mm[v[2]]};
-      if (!(landed[0] + landed[1] + landed[2]).allFinite()) continue;
-      brushes.push_back(film.film.brush(at, landed));
-    }
-    return [brushes = std::move(brushes)](int x, int y, const Eigen::Vector3d&) {
-      Eigen::Vector3f ink = Eigen::Vector3f::Zero();
-      for (const Brush& brush : brushes)
-        ink += Eigen::Vector3f::Ones() - srgb_from_linear(brush.at(x + 0.5, y + 0.5));
-      return linear_from_srgb(Eigen::Vector3f(Eigen::Vector3f::Ones() - ink));
-    };
-  };
-  return draw_sheet(views, 0, context, [&](ViewDrawing& drawing) {
+  return draw_sheet(views, 0, context, [&](ViewDrawing& drawing, std::size_t) {
     drawing.draw_tiles(colour_of);
     drawing.draw_bare([](int, int) { return kBareObject; });
   });

@@ -47,23 +47,6 @@ struct Quantity {
 [[nodiscard]] Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,
                                                  const Context& context);
 
-/// One film of several, and where it lands.
-struct LandedFilm {
-  const FilmTexture& film;
-  const std::vector<Eigen::Vector2d>& film_mm;  ///< per point of the surface: see SurfaceMap
-};
-
-/// Draws the object with the colours that several films leave on it, one after the other: amounts of
-/// ink (CMY, white minus coded RGB) add up, to full ink at most. Light grey where no film lands.
-/// @param views  with whole_triangles() as tiles
-[[nodiscard]] Result<RgbImage> combined_picture(const ObjectViews& views,
-                                                const std::vector<LandedFilm>& films,
-                                                const Context& context);
-
-/// Returns tiles that cover the triangles of a surface where `is_covered`. They have no film.
-[[nodiscard]] std::vector<flow::MappedTriangle> whole_triangles(
-    const mesh::Surface& surface, const std::function<bool(std::size_t)>& is_covered);
-
 /// Film images are reduced to at most this number of pixels per side for these pictures
 /// (FilmTexture::from_image).
 inline constexpr int kPictureFilmSide_px = 3000;

@@ -67,7 +67,12 @@ Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const Input
 /// Returns a picture of the object, coloured by the uncertainty of the surface's position.
 Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
                                       const std::vector<double>& error_mm, const Context& context) {
-  const auto whole = image::whole_triangles(surface, [](std::size_t) { return true; });
+  std::vector<flow::MappedTriangle> whole(surface.triangles.size());
+  for (std::size_t t = 0; t < whole.size(); ++t) {
+    whole[t].triangle = static_cast<int>(t);
+    whole[t].barycentric = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(),
+                            Eigen::Vector3f::UnitZ()};
+  }
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
     const Eigen::Vector3i& v = surface.triangles[static_cast<std::size_t>(tile.triangle)];
     return std::array{error_mm[static_cast<std::size_t>(v[0])],

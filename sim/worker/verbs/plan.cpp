@@ -167,13 +167,15 @@ Status PlanTask::write_plan_files(const pipeline::Plan& plan,
   return write_plan(folder / "plan.ply", plan);
 }
 
-/// Prints one dip after the other, and writes its images before the next one needs the memory.
+/// Prints one dip after the other, and writes its images before the next one needs the memory;
+/// then the picture of all dips.
 Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Plan& plan,
                                                              const pipeline::PlanOptions& options,
                                                              const std::filesystem::path& folder,
                                                              Report& report,
                                                              const Context& context) const {
   std::vector<pipeline::DipPrint> out;
+  image::LandedInk ink;
   for (int n = 1; n <= static_cast<int>(plan.dips.size()); ++n) {
     HP_ASSIGN_OR_RETURN(pipeline::DipPrint print, pipeline::print_dip(plan, options, n, context));
     const pipeline::DipImages& images = print.images;
@@ -189,9 +191,18 @@ Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Pla
                                     context));
     report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
     report.warnings.insert(report.warnings.end(), print.warnings.begin(), print.warnings.end());
+    image::add_ink(print.ink, ink);
     print.images = {};
+    print.ink = {};
     out.push_back(std::move(print));
   }
+  HP_ASSIGN_OR_RETURN(const image::RgbImage combined,
+                      pipeline::combined_picture(plan, ink, context));
+  HP_ASSIGN_OR_RETURN(
+      const auto names,
+      write_files(folder, {png_file("combined.png", combined, image::kScreenDpi, context)},
+                  context));
+  report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
   return out;
 }
 
@@ -213,13 +224,6 @@ Status PlanTask::compute(OutFolder& folder, Report& report, const Context& conte
   report.artifacts = {"plan.json", "plan.ply"};
   HP_ASSIGN_OR_RETURN(const auto prints,
                       print_dips(plan, options, folder.partial(), report, context));
-  HP_ASSIGN_OR_RETURN(const image::RgbImage combined,
-                      pipeline::combined_picture(plan, prints, context));
-  HP_ASSIGN_OR_RETURN(
-      const auto names,
-      write_files(folder.partial(),
-                  {png_file("combined.png", combined, image::kScreenDpi, context)}, context));
-  report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
   set_findings(plan, prints, report_);
   return {};
 }
