@@ -26,6 +26,8 @@ namespace {
 
 /// Dips whose orientations differ by less, apart from a turn about the vertical, are the same.
 constexpr double kSameOrientation_rad = 0.02;
+/// Factor on the stretch of a dip whose orientation an earlier one has.
+constexpr double kRepeatedStretch = 1e6;
 /// A share of the surface that no dip reaches, above which there is a warning.
 constexpr double kMostUnreached = 0.001;
 
@@ -75,33 +77,41 @@ Result<std::vector<PlannedDip>> stokes_dips(const mesh::Surface& surface,
   return out;
 }
 
-/// Returns the stretch with infinity where no film arrives.
+/// Returns the earlier dip that lowers the object in the same orientation as dip k, apart from a
+/// turn about the vertical; nullopt if there is none.
+std::optional<std::size_t> repeated_by(const std::vector<PlannedDip>& dips, std::size_t k) {
+  const auto down = [&](std::size_t i) -> Eigen::Vector3d {
+    return dips[i].X_FO.linear().row(2).transpose();
+  };
+  for (std::size_t j = 0; j < k; ++j) {
+    if (std::acos(std::clamp(down(k).dot(down(j)), -1.0, 1.0)) <= kSameOrientation_rad) return j;
+  }
+  return std::nullopt;
+}
+
+/// Returns the stretch by which the surface is divided: infinity where no film arrives. A repeated
+/// dip gets only what the earlier one does not reach; otherwise rounding would decide.
 plan::Stretch stretch_by_dip(const std::vector<PlannedDip>& dips) {
   plan::Stretch out;
-  for (const PlannedDip& dip : dips) {
-    std::vector<double>& stretch = out.emplace_back(dip.map.stretch);
-    for (double& value : stretch) {
-      if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
-    }
+  for (std::size_t k = 0; k < dips.size(); ++k) {
+    const double factor = repeated_by(dips, k) ? kRepeatedStretch : 1;
+    std::vector<double>& stretch = out.emplace_back(dips[k].map.stretch);
+    for (double& value : stretch)
+      value = std::isnan(value) ? std::numeric_limits<double>::infinity() : factor * value;
   }
   return out;
 }
 
-/// Warns about dips that lower the object in the same orientation, apart from a turn about z.
 void warn_of_repeats(const Plan& plan, Warnings& warnings) {
-  const auto down = [&](std::size_t k) -> Eigen::Vector3d {
-    return plan.dips[k].X_FO.linear().row(2).transpose();
-  };
   for (std::size_t k = 1; k < plan.dips.size(); ++k) {
-    for (std::size_t j = 0; j < k; ++j) {
-      if (std::acos(std::clamp(down(k).dot(down(j)), -1.0, 1.0)) > kSameOrientation_rad) continue;
-      warnings.push_back({"dip_repeated",
-                          fmt::format("{} lowers the object in the same orientation as {}. Leave "
-                                      "one of them out, or turn the object",
-                                      name_of(k), name_of(j)),
-                          name_of(k)});
-      break;
-    }
+    const auto earlier = repeated_by(plan.dips, k);
+    if (!earlier) continue;
+    warnings.push_back({"dip_repeated",
+                        fmt::format("{} lowers the object in the same orientation as {}, so it "
+                                    "prints only what that one does not reach. Leave one of them "
+                                    "out, or turn the object",
+                                    name_of(k), name_of(*earlier)),
+                        name_of(k)});
   }
 }
 
@@ -186,6 +196,17 @@ std::vector<double> point_areas_mm2(const mesh::Surface& surface) {
   return out;
 }
 
+/// Reads the picture, which must have colours.
+Result<image::Paint> paint_of(const mesh::Model& model, const PlanOptions& options,
+                              const Context& context) {
+  HP_ASSIGN_OR_RETURN(image::Paint paint, image::load_paint(model, options.texture, context));
+  if (paint.has_colour()) return paint;
+  return fail(Code::kInvalidArgument,
+              options.mesh.string() +
+                  ": has no colours to divide among the dips. Give a texture, or a model with "
+                  "colours");
+}
+
 }  // namespace
 
 Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
@@ -196,7 +217,7 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
   HP_ASSIGN_OR_RETURN(out.surface,
                       mesh::make_surface(out.model, options.dip.surface_edge_mm, context));
   const auto read_paint = [&](const Context& reading) {
-    return image::load_paint(out.model, options.texture, reading);
+    return paint_of(out.model, options, reading);
   };
   const auto solve = [&](const Context& behind) {
     return stokes_dips(out.surface, options, behind);
@@ -204,12 +225,6 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
   HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, read_paint));
   out.dips = std::move(both.first);
   out.paint = std::move(both.second);
-  if (!out.paint.has_colour()) {
-    return fail(Code::kInvalidArgument,
-                options.mesh.string() +
-                    ": has no colours to divide among the dips. Give a texture, or a model with "
-                    "colours");
-  }
   HP_ASSIGN_OR_RETURN(out.regions,
                       plan::make_regions(out.surface, stretch_by_dip(out.dips), {}, context));
   HP_ASSIGN_OR_RETURN(

@@ -90,6 +90,12 @@ tl::unexpected<Error> fail_field(Code code, const std::string& field, std::strin
   return tl::unexpected<Error>(Error{code, std::move(problem), {}, {{"field", field}}});
 }
 
+Error in_message(const std::string& message, Error error) {
+  const auto field = error.metadata.find("field");
+  if (field != error.metadata.end()) field->second.insert(0, message + ".");
+  return error;
+}
+
 Error name_field(Error error, bool as_flag) {
   const auto field = error.metadata.find("field");
   if (field == error.metadata.end()) return error;

@@ -16,6 +16,9 @@ namespace hydroprint::worker {
 [[nodiscard]] tl::unexpected<Error> fail_field(Code code, const std::string& field,
                                                std::string problem);
 
+/// Adds the name of the message in which the field of an error is: "film" becomes "film.film".
+[[nodiscard]] Error in_message(const std::string& message, Error error);
+
 /// Prefixes the error's message with the field as the user wrote it: "--ink-passes: ..." for flags,
 /// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
 [[nodiscard]] Error name_field(Error error, bool as_flag);

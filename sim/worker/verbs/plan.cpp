@@ -56,17 +56,22 @@ void fill_defaults(const FlowOptions& flow, v1::FilmSetup& film) {
   film.set_ink_passes(flow.is_sheet() ? flow.passes() : 0);
 }
 
-Result<FlowOptions> read_flow_options(const v1::PlanSpec& spec, const InputFolder& inputs) {
-  FlowOptions out;
-  const v1::FilmSetup& film = spec.film();
-  HP_ASSIGN_OR_RETURN(out.dip.object.mesh, inputs.required("object.mesh", spec.object().mesh()));
-  if (spec.object().has_scale()) out.dip.object.scale = spec.object().scale();
+/// Reads the options of the film, except its profile's content.
+Status read_film(const v1::FilmSetup& film, const InputFolder& inputs, FlowOptions& out) {
   HP_ASSIGN_OR_RETURN(out.dip.object.film, film_of(film, inputs));
   out.dip.profile = inputs.path(film.profile());
   if (film.has_dip_speed_mm_per_s()) out.dip.dip_speed_mm_per_s = film.dip_speed_mm_per_s();
-  if (spec.has_dpi()) out.dpi = spec.dpi();
   if (film.has_ink_passes()) out.ink_passes = film.ink_passes();
-  HP_RETURN_IF_ERROR(choose(out, film.model(), film.inertia(), v1::ARTIFACT_SET_ALL));
+  return choose(out, film.model(), film.inertia(), v1::ARTIFACT_SET_ALL);
+}
+
+Result<FlowOptions> read_flow_options(const v1::PlanSpec& spec, const InputFolder& inputs) {
+  FlowOptions out;
+  HP_ASSIGN_OR_RETURN(out.dip.object.mesh, inputs.required("object.mesh", spec.object().mesh()));
+  if (spec.object().has_scale()) out.dip.object.scale = spec.object().scale();
+  if (spec.has_dpi()) out.dpi = spec.dpi();
+  const Status read = read_film(spec.film(), inputs, out);
+  if (!read) return tl::unexpected(in_message("film", read.error()));
   return out;
 }
 

@@ -9,17 +9,17 @@
 
 #include "sim/worker/command_line.h"
 #include "sim/worker/common/artifact_task.h"
-#include "tests/sim/worker/worker_fixture.h"
+#include "tests/sim/worker/plan_fixture.h"
 
 namespace hydroprint::worker {
 namespace {
 
 using Names = std::vector<std::string>;
 
-class Stages : public Worker {
+class Stages : public PlanWorker {
  protected:
   void SetUp() override {
-    Worker::SetUp();
+    PlanWorker::SetUp();
     std::filesystem::copy_file(path("texture.png"), path("film.png"));
   }
 
@@ -92,6 +92,14 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
                                  {"--artifacts", "map", "--ink-image", path("texture.png")},
                                  {"--artifacts", "map", "--model", "stokes"}}) {
     EXPECT_EQ(reported(predict(flags)), listed(predict(flags))) << ::testing::PrintToString(flags);
+  }
+}
+
+TEST_F(Stages, OfAPlanComeAsListed) {
+  for (const Arguments& flags : {Arguments{},
+                                 {"--model", "sheet", "--ink-passes", "0"},
+                                 {"--model", "sheet", "--ink-passes", "2"}}) {
+    EXPECT_EQ(reported(plan(flags)), listed(plan(flags))) << ::testing::PrintToString(flags);
   }
 }
 
