@@ -21,23 +21,30 @@ using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 /// Returns the number of views: of folders with frames.json.
 [[nodiscard]] int count_views(const InputFiles& frames);
 
-/// Checks that the extra files contain the file of a polygon film.
+/// Checks that a polygon film's file is among the extra files.
+/// @param path  of the message that has the film, for errors: "simulate", "plan.film"
+template <class Film>
+[[nodiscard]] Status check_polygon(const std::string& path, const Film& film,
+                                   const InputFiles& extra_files) {
+  if (!film.film().starts_with("polygon:")) return {};
+  for (const v1::InputFile& file : extra_files) {
+    if (film.film() == "polygon:" + file.name()) return {};
+  }
+  return invalid_field(path + ".film",
+                       "names a polygon whose file is not in extra_files; add the file there");
+}
 template <class Spec>
 [[nodiscard]] Status check_polygon(const std::string& kind, const Spec& spec) {
-  if (!spec.film().starts_with("polygon:")) return {};
-  for (const v1::InputFile& file : spec.extra_files()) {
-    if (spec.film() == "polygon:" + file.name()) return {};
-  }
-  return invalid_field(kind + ".film",
-                       "names a polygon whose file is not in extra_files; add the file there");
+  return check_polygon(kind, spec, spec.extra_files());
 }
 
 /// Checks that inertia is used only with the sheet model.
-template <class Spec>
-[[nodiscard]] Status check_inertia(const std::string& kind, const Spec& spec) {
-  if (!spec.inertia() || spec.model() != v1::MODEL_STOKES) return {};
+/// @param path  of the message that has the model: see check_polygon()
+template <class Film>
+[[nodiscard]] Status check_inertia(const std::string& path, const Film& film) {
+  if (!film.inertia() || film.model() != v1::MODEL_STOKES) return {};
   return invalid_field(
-      kind + ".inertia",
+      path + ".inertia",
       "Stokes flow has no inertia; leave this field out, or set the model to sheet");
 }
 

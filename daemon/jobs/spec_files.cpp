@@ -13,20 +13,34 @@ namespace {
 
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
-using FileVisitor = std::function<Status(const FieldDescriptor&, const v1::InputFile&)>;
+using FileVisitor =
+    std::function<Status(const FieldDescriptor&, const std::string& place, const v1::InputFile&)>;
 
-// Calls `visit` for each file. Specs have files only at their top level.
-Status each_file(const Message& spec, const FileVisitor& visit) {
-  const auto& reflection = *spec.GetReflection();
+Status each_file(const Message& message, const std::string& path, const FileVisitor& visit);
+
+Status each_file_in(const Message& value, const FieldDescriptor& field, const std::string& place,
+                    const FileVisitor& visit) {
+  if (value.GetDescriptor() == v1::InputFile::descriptor())
+    return visit(field, place, static_cast<const v1::InputFile&>(value));
+  return each_file(value, place, visit);
+}
+
+// Calls `visit` for each file in a message and its nested messages.
+// @param path  place of the message, for errors
+Status each_file(const Message& message, const std::string& path, const FileVisitor& visit) {
+  const auto& reflection = *message.GetReflection();
   std::vector<const FieldDescriptor*> fields;
-  reflection.ListFields(spec, &fields);
+  reflection.ListFields(message, &fields);
   for (const FieldDescriptor* const field : fields) {
-    if (field->message_type() != v1::InputFile::descriptor()) continue;
-    const int count = field->is_repeated() ? reflection.FieldSize(spec, field) : 1;
-    for (int i = 0; i < count; ++i) {
-      const Message& file = field->is_repeated() ? reflection.GetRepeatedMessage(spec, field, i)
-                                                 : reflection.GetMessage(spec, field);
-      HP_RETURN_IF_ERROR(visit(*field, static_cast<const v1::InputFile&>(file)));
+    if (field->message_type() == nullptr || field->is_map()) continue;
+    const std::string place = path + "." + field->name();
+    if (!field->is_repeated()) {
+      HP_RETURN_IF_ERROR(each_file_in(reflection.GetMessage(message, field), *field, place, visit));
+      continue;
+    }
+    for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+      HP_RETURN_IF_ERROR(
+          each_file_in(reflection.GetRepeatedMessage(message, field, i), *field, place, visit));
     }
   }
   return {};
@@ -52,8 +66,8 @@ std::string ambiguous_name(const std::vector<InputFile>& inputs) {
 
 Result<std::vector<InputFile>> input_files(const Message& spec, const std::string& path) {
   std::vector<InputFile> out;
-  const auto add = [&](const FieldDescriptor& field, const v1::InputFile& file) -> Status {
-    const std::string place = path + "." + field.name();
+  const auto add = [&](const FieldDescriptor&, const std::string& place,
+                       const v1::InputFile& file) -> Status {
     HP_RETURN_IF_ERROR(check_file_name(place + ".name", file.name()));
     const auto asset = parse_asset_name(file.asset());
     if (!asset) {
@@ -64,7 +78,7 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
     out.push_back({file.name(), *asset});
     return {};
   };
-  HP_RETURN_IF_ERROR(each_file(spec, add));
+  HP_RETURN_IF_ERROR(each_file(spec, path, add));
   if (const std::string name = ambiguous_name(out); !name.empty()) {
     return fail(
         Code::kInvalidArgument,
@@ -77,11 +91,13 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
 
 std::string first_file_name(const Message& spec) {
   std::string single, listed;
-  (void)each_file(spec, [&](const FieldDescriptor& field, const v1::InputFile& file) -> Status {
+  const auto keep = [&](const FieldDescriptor& field, const std::string&,
+                        const v1::InputFile& file) -> Status {
     std::string& first = field.is_repeated() ? listed : single;
     if (first.empty()) first = file.name();
     return {};
-  });
+  };
+  (void)each_file(spec, {}, keep);
   return single.empty() ? listed : single;
 }
 

@@ -11,7 +11,7 @@ class Message;
 
 namespace hydroprint::daemon {
 
-/// Returns all input files of a spec, in the order of its fields.
+/// Returns all input files of a spec and the messages in it, in the order of their fields.
 /// @param path  name of the spec's field in Job, for errors: "print_image"
 /// @return NAME_INVALID for an invalid file name, or one that two files have; ID_INVALID for an
 /// invalid asset name

@@ -169,6 +169,51 @@ TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
   EXPECT_EQ(without.at("simulate").at("inertia"), false);
 }
 
+constexpr const char* kTwoDips =
+    R"([{"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0], "depth_mm": "full"},
+        {"rotation_wxyz": [0, 1, 0, 0], "translation_mm": [0, 2, 0], "depth_mm": 12.5}])";
+
+TEST_F(Cli, PlanSendsTheDipsAndTheFilesOfModelAndFilm) {
+  start();
+  folder_.write("m.mtl", "map_Kd skin.png\n");
+  folder_.write("skin.png", "skin");
+  const json job = client_json({"submit", "plan", "--mesh", mesh("mtllib m.mtl"), "--immersions",
+                                folder_.write("two.json", kTwoDips).string(), "--film",
+                                "polygon:" + folder_.write("film.json", "[[0,0]]").string(),
+                                "--profile", folder_.write("film.toml", "").string(), "--scale",
+                                "50", "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  EXPECT_EQ(job.at("displayName"), "plan m.obj");
+  for (const json& spec : {job.at("plan"), given_spec(content(out() / "report.json"))}) {
+    const json& object = spec.at("object");
+    EXPECT_EQ(object.at("mesh").at("name"), "m.obj");
+    EXPECT_EQ(object.at("scale"), 50);
+    std::vector<std::string> names;
+    for (const json& file : object.at("extraFiles")) names.push_back(file.at("name"));
+    EXPECT_EQ(names, (std::vector<std::string>{"m.mtl", "skin.png", "film.json"}));
+    EXPECT_EQ(spec.at("film").at("film"), "polygon:film.json");
+    EXPECT_EQ(spec.at("film").at("profile").at("name"), "film.toml");
+    const json& dips = spec.at("immersions");
+    ASSERT_EQ(dips.size(), 2U);
+    EXPECT_FALSE(dips[0].contains("depthMm"));
+    EXPECT_EQ(dips[1].at("depthMm"), 12.5);
+    EXPECT_EQ(dips[1].at("pose").at("translationMm"), (json{0, 2, 0}));
+  }
+}
+
+TEST_F(Cli, BadDipsAreRefusedBeforeAnythingIsUploaded) {
+  start();
+  const auto plan = [&](const std::string& dips) {
+    return Arguments{"submit",        "plan",         "--mesh",
+                     mesh("v 0 0 0"), "--immersions", folder_.write("two.json", dips).string()};
+  };
+  expect_error(plan("[]"), 3, "two.json: no dips");
+  expect_error(plan(R"([{"rotation_wxyz": [1, 1, 0, 0], "translation_mm": [0, 0, 0]}])"), 3,
+               "two.json: dip 1: rotation_wxyz: the quaternion has length 1.414");
+  expect_error({"submit", "plan", "--mesh", mesh("")}, 2, "--immersions");
+  EXPECT_TRUE(client_json({"assets"}).at("assets").empty());
+}
+
 TEST_F(Cli, FitUsesTheMeasuredPoints) {
   start();
   const json job =

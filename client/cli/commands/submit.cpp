@@ -66,6 +66,14 @@ std::string footer_of(const std::string& kind) {
        "worker's defaults.\n\n"
        "Example:\n"
        "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result"},
+      {"plan",
+       "three.json lists the dips: their poses over the film, and their depths:\n"
+       "  [{\"rotation_wxyz\": [1, 0, 0, 0], \"translation_mm\": [0, 0, 0], \"depth_mm\": "
+       "\"full\"}, "
+       "...]\n\n"
+       "Example:\n"
+       "  hydroprint submit plan --mesh spot.obj --texture spot.png --scale 50 --immersions "
+       "three.json --out plan"},
       {"predict",
        "Example:\n"
        "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait"},

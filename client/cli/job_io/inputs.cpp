@@ -70,7 +70,8 @@ Result<std::vector<v1::InputFile>> Inputs::add_frames(
   return out;
 }
 
-Status Inputs::add_film(const std::string& film, google::protobuf::Message& spec) {
+Status Inputs::add_film(const std::string& film, google::protobuf::Message& spec,
+                        google::protobuf::Message& with_files) {
   constexpr std::string_view kPolygon = "polygon:";
   if (!film.empty()) set_text(spec, "film", film);
   if (!film.starts_with(kPolygon)) return {};
@@ -78,7 +79,7 @@ Status Inputs::add_film(const std::string& film, google::protobuf::Message& spec
   if (path.empty())
     return fail(Code::kInvalidArgument, "--film polygon: a file is missing; use polygon:FILE.json");
   HP_ASSIGN_OR_RETURN(const v1::InputFile file, add(path));
-  file_in(spec, "extra_files") = file;
+  file_in(with_files, "extra_files") = file;
   set_text(spec, "film", std::string(kPolygon) + file.name());
   return {};
 }

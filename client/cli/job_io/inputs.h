@@ -36,8 +36,11 @@ class Inputs {
   [[nodiscard]] Result<std::vector<v1::InputFile>> add_frames(
       const std::vector<std::filesystem::path>& folders);
 
-  /// Sets the spec's film unless `film` is empty; uploads the file of a polygon.
-  [[nodiscard]] Status add_film(const std::string& film, google::protobuf::Message& spec);
+  /// Sets the film of a spec, or of a message in it, unless `film` is empty; uploads the file of a
+  /// polygon.
+  /// @param with_files  the message that has the extra files
+  [[nodiscard]] Status add_film(const std::string& film, google::protobuf::Message& spec,
+                                google::protobuf::Message& with_files);
 
  private:
   [[nodiscard]] Result<v1::InputFile> add_as(const std::string& name,

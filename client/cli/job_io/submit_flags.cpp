@@ -7,6 +7,7 @@
 #include "hydroprint/v1/field_rules.pb.h"
 #include "proto/flags/field_flag.h"
 #include "proto/rules/field_rules.h"
+#include "sim/base/immersions_file.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -21,9 +22,13 @@ const v1::FieldRules& rules_of(const FieldDescriptor& field) {
 
 bool is_film(const FieldDescriptor& field) { return rules_of(field).format() == "film"; }
 
+bool is_list_of_dips(const FieldDescriptor& field) {
+  return field.is_repeated() && field.message_type() == v1::DipSetup::descriptor();
+}
+
 // Lists of files have no flag: their files are found through the references in other files.
 bool has_flag(const FieldDescriptor& field) {
-  return !field.is_repeated() || field.message_type() == nullptr;
+  return !field.is_repeated() || field.message_type() == nullptr || is_list_of_dips(field);
 }
 
 CLI::Option* add_file(CLI::App& command, SubmitOptions& options, const FieldDescriptor& field) {
@@ -38,7 +43,7 @@ CLI::Option* add_file(CLI::App& command, SubmitOptions& options, const FieldDesc
 CLI::Option* add_flag(CLI::App& command, SubmitOptions& options, const FieldDescriptor& field) {
   const bool is_file = field.message_type() != nullptr || is_film(field);
   return is_file ? add_file(command, options, field)
-                 : add_field(command, spec_of(options.job), field.name());
+                 : add_field(command, flags::holder_of(spec_of(options.job), field), field.name());
 }
 
 // Makes a flag required, or exclusive with others, as the rules of its field say.
@@ -65,43 +70,63 @@ void apply_rules(CLI::App& command, const FieldDescriptor& field) {
   });
 }
 
-Status take_file(const FieldDescriptor& field, const std::string& text, Inputs& inputs,
+Status take_film(const FieldDescriptor& field, const std::string& text, Inputs& inputs,
                  Message& spec) {
-  if (is_film(field)) return inputs.add_film(text, spec);
-  if (field.name() == "mesh") return inputs.add_model(text, spec);
-  if (field.message_type() != v1::Pose::descriptor())
-    return inputs.add_to(spec, field.name(), text);
-  HP_ASSIGN_OR_RETURN(const v1::Pose pose, client::read_pose_file(text));
-  spec.GetReflection()->MutableMessage(&spec, &field)->CopyFrom(pose);
+  Message* with_files = &spec;
+  for (const FieldDescriptor* other : flags::fields_of(*spec.GetDescriptor())) {
+    if (other->name() == "extra_files") with_files = &flags::holder_of(spec, *other);
+  }
+  return inputs.add_film(text, flags::holder_of(spec, field), *with_files);
+}
+
+Status take_dips(const FieldDescriptor& field, const std::string& file, Message& spec) {
+  HP_ASSIGN_OR_RETURN(const std::vector<ListedDip> dips, read_immersions_file(file));
+  for (const ListedDip& dip : dips)
+    set_dip(dip, static_cast<v1::DipSetup&>(*spec.GetReflection()->AddMessage(&spec, &field)));
   return {};
 }
 
-// Returns the position of a file in the order of reading and uploading. A pose comes first, so that
-// an error in it is reported before anything is uploaded. The mesh, which has the lowest field
-// number, comes next, because its files keep their names.
-int upload_order(const FieldDescriptor& field) {
-  return field.message_type() == v1::Pose::descriptor() ? 0 : field.number();
+Status take_file(const FieldDescriptor& field, const std::string& text, Inputs& inputs,
+                 Message& spec) {
+  if (is_film(field)) return take_film(field, text, inputs, spec);
+  if (is_list_of_dips(field)) return take_dips(field, text, spec);
+  Message& holder = flags::holder_of(spec, field);
+  if (field.name() == "mesh") return inputs.add_model(text, holder);
+  if (field.message_type() != v1::Pose::descriptor())
+    return inputs.add_to(holder, field.name(), text);
+  HP_ASSIGN_OR_RETURN(const v1::Pose pose, client::read_pose_file(text));
+  holder.GetReflection()->MutableMessage(&holder, &field)->CopyFrom(pose);
+  return {};
+}
+
+// Returns the position of a file in the order of reading and uploading. Poses come first, so that
+// an error in them is reported before anything is uploaded. The mesh, which is the first field,
+// comes next, because its files keep their names.
+std::ptrdiff_t upload_order(const FieldDescriptor& field, const Message& spec) {
+  if (field.message_type() == v1::Pose::descriptor() || is_list_of_dips(field)) return -1;
+  const auto all = flags::fields_of(*spec.GetDescriptor());
+  return std::find(all.begin(), all.end(), &field) - all.begin();
 }
 
 }  // namespace
 
 void add_spec_flags(CLI::App& command, SubmitOptions& options,
                     const std::vector<std::string>& only) {
-  const auto& spec = *spec_of(options.job).GetDescriptor();
-  for (int i = 0; i < spec.field_count(); ++i) {
-    const FieldDescriptor& field = *spec.field(i);
+  const auto fields = flags::fields_of(*spec_of(options.job).GetDescriptor());
+  for (const FieldDescriptor* field : fields) {
     const bool is_wanted =
-        only.empty() || std::find(only.begin(), only.end(), field.name()) != only.end();
-    if (is_wanted && has_flag(field)) add_flag(command, options, field);
+        only.empty() || std::find(only.begin(), only.end(), field->name()) != only.end();
+    if (is_wanted && has_flag(*field)) add_flag(command, options, *field);
   }
-  for (int i = 0; i < spec.field_count(); ++i) apply_rules(command, *spec.field(i));
+  for (const FieldDescriptor* field : fields) apply_rules(command, *field);
 }
 
 Result<v1::Job> upload_inputs(Inputs& inputs, const SubmitOptions& options) {
   v1::Job job = options.job;
+  const Message& spec = spec_of(job);
   auto files = options.files;
-  std::stable_sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return upload_order(*a.first) < upload_order(*b.first);
+  std::stable_sort(files.begin(), files.end(), [&](const auto& a, const auto& b) {
+    return upload_order(*a.first, spec) < upload_order(*b.first, spec);
   });
   for (const auto& [field, text] : files)
     HP_RETURN_IF_ERROR(take_file(*field, text, inputs, spec_of(job)));

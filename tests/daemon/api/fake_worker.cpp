@@ -55,7 +55,8 @@ bool is_garbage = false;
 /// there is none.
 std::string file_of(const std::string& field) {
   if (spec.is_null()) return flags["--" + field];
-  return spec.contains(field) ? spec[field].value("name", "") : "";
+  const auto& object = spec.contains("object") ? spec["object"] : spec;
+  return object.contains(field) ? object[field].value("name", "") : "";
 }
 
 void write_line(const std::string& line) {

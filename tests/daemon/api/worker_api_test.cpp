@@ -230,11 +230,32 @@ std::string ball_obj() {
   return obj.str();
 }
 
+/// A tetrahedron with 20 mm edges and colours at its vertices.
+std::string coloured_tetrahedron_ply() {
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+         "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+         "7 7 7 255 0 0\n7 -7 -7 0 255 0\n-7 7 -7 0 0 255\n-7 -7 7 99 99 99\n"
+         "3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n";
+}
+
 class RealWorker : public Workers {
  protected:
   void SetUp() override {
     if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
     start({});
+  }
+
+  /// Waits until a job has ended, longer than usual, for slow machines and sanitizers.
+  v1::Job patient_end(v1::Job job) const {
+    for (int i = 0; i < 10 && !finished(job); ++i) {
+      try {
+        job = client->wait_for_end(job.name());
+      } catch (const std::runtime_error&) {
+        job = client->job(job.name());
+      }
+    }
+    return job;
   }
 };
 
@@ -243,13 +264,7 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
   request.mutable_job()->mutable_simulate()->set_dpi(72);
   v1::Job job;
   ASSERT_TRUE(client->create(request, job).ok());
-  for (int i = 0; i < 10 && !finished(job); ++i) {
-    try {
-      job = client->wait_for_end(job.name());
-    } catch (const std::runtime_error&) {
-      job = client->job(job.name());  // waits longer, for slow machines and sanitizers
-    }
-  }
+  job = patient_end(job);
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   const std::string film = client->download(job.name() + "/artifacts/film.png");
   EXPECT_EQ(film.substr(0, 8), "\x89PNG\r\n\x1a\n");
@@ -262,6 +277,31 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
   v1::Job again;
   ASSERT_TRUE(client->create(request, again).ok());
   EXPECT_TRUE(again.cache_hit());
+}
+
+TEST_F(RealWorker, ComputesAPlanOfTwoDips) {
+  v1::CreateJobRequest request;
+  v1::PlanSpec& spec = *request.mutable_job()->mutable_plan();
+  v1::InputFile& mesh = *spec.mutable_object()->mutable_mesh();
+  mesh.set_name("ball.ply");
+  mesh.set_asset(client->upload(coloured_tetrahedron_ply()));
+  spec.mutable_film()->set_film("60x60");
+  spec.mutable_film()->set_model(v1::MODEL_STOKES);
+  spec.set_dpi(72);
+  for (int k = 0; k < 2; ++k) {
+    v1::Pose& pose = *spec.add_immersions()->mutable_pose();
+    for (int i = 0; i < 4; ++i) pose.add_rotation_wxyz(i == k ? 1 : 0);
+    for (int i = 0; i < 3; ++i) pose.add_translation_mm(0);
+  }
+  v1::Job job;
+  ASSERT_TRUE(client->create(request, job).ok());
+  job = patient_end(job);
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  for (const char* name :
+       {"plan.json", "plan.ply", "report.json", "stretch-1.png", "complete-1.png", "mask-1.png",
+        "film-1.png", "film-2.png", "combined.png"}) {
+    EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
+  }
 }
 
 TEST_F(RealWorker, BadModelIsRefusedWithItsName) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "daemon/rest/bad_request.h"
@@ -106,6 +107,72 @@ TEST(Spec, InertiaRequiresTheSheetModel) {
   set_file(*predict.mutable_predict()->mutable_mesh(), "spot.obj");
   set_file(*predict.mutable_predict()->mutable_film_image(), "film.png");
   expect_inertia_for_the_sheet_alone(predict, *predict.mutable_predict(), "predict.inertia");
+}
+
+v1::Job plan_of_two_dips() {
+  v1::Job job;
+  v1::PlanSpec& spec = *job.mutable_plan();
+  set_file(*spec.mutable_object()->mutable_mesh(), "spot.obj");
+  for (int k = 0; k < 2; ++k) {
+    v1::Pose& pose = *spec.add_immersions()->mutable_pose();
+    for (int i = 0; i < 4; ++i) pose.add_rotation_wxyz(i == k ? 1 : 0);
+    for (int i = 0; i < 3; ++i) pose.add_translation_mm(0);
+  }
+  return job;
+}
+
+TEST(Spec, PlanWithItsNestedFilesReachesTheWorker) {
+  v1::Job job = plan_of_two_dips();
+  v1::PlanSpec& spec = *job.mutable_plan();
+  set_file(*spec.mutable_object()->mutable_texture(), "spot.png");
+  set_file(*spec.mutable_object()->add_extra_files(), "film.json");
+  set_file(*spec.mutable_film()->mutable_profile(), "p.toml");
+  spec.mutable_film()->set_film("polygon:film.json");
+  spec.mutable_immersions(1)->set_depth_mm(20);
+  spec.set_blend_mm(3);
+  spec.set_threads(2);
+  const auto request = check_job(job);
+  ASSERT_TRUE(request) << request.error().message;
+  expect_given(*request, spec);
+  EXPECT_EQ(request->threads, 2);
+  EXPECT_EQ(request->work.verb, "plan");
+  EXPECT_EQ(request->display_name, "plan spot.obj");
+  std::vector<std::string> names;
+  for (const InputFile& file : request->work.inputs) names.push_back(file.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"spot.obj", "spot.png", "film.json", "p.toml"}));
+}
+
+TEST(Spec, WrongFieldsOfAPlanAreNamedWithTheirMessages) {
+  const auto refused = [](const std::function<void(v1::PlanSpec&)>& spoil) {
+    v1::Job job = plan_of_two_dips();
+    spoil(*job.mutable_plan());
+    return refused_field(job);
+  };
+  EXPECT_EQ(refused([](auto&) {}), "accepted");
+  EXPECT_EQ(refused([](auto& s) { s.clear_immersions(); }), "plan.immersions");
+  EXPECT_EQ(refused([](auto& s) {
+              while (s.immersions_size() < 13) *s.add_immersions() = s.immersions(0);
+            }),
+            "plan.immersions");
+  EXPECT_EQ(refused([](auto& s) { s.clear_object(); }), "plan.object");
+  EXPECT_EQ(refused([](auto& s) { s.mutable_object()->clear_mesh(); }), "plan.object.mesh");
+  EXPECT_EQ(refused([](auto& s) { s.mutable_object()->set_scale(0); }), "plan.object.scale");
+  EXPECT_EQ(refused([](auto& s) { s.mutable_immersions(1)->set_depth_mm(-1); }),
+            "plan.immersions[1].depth_mm");
+  EXPECT_EQ(
+      refused([](auto& s) { s.mutable_immersions(1)->mutable_pose()->set_rotation_wxyz(0, 2); }),
+      "plan.immersions[1].pose.rotation_wxyz");
+  EXPECT_EQ(refused([](auto& s) { s.mutable_film()->set_film("A9"); }), "plan.film.film");
+  EXPECT_EQ(refused([](auto& s) { s.mutable_film()->set_film("polygon:film.json"); }),
+            "plan.film.film");
+  EXPECT_EQ(refused([](auto& s) {
+              s.mutable_film()->set_model(v1::MODEL_STOKES);
+              s.mutable_film()->set_inertia(true);
+            }),
+            "plan.film.inertia");
+  EXPECT_EQ(refused([](auto& s) { s.set_blend_mm(0); }), "plan.blend_mm");
+  EXPECT_EQ(refused([](auto& s) { set_file(*s.mutable_film()->mutable_profile(), "spot.obj"); }),
+            "NAME_INVALID");
 }
 
 TEST(Spec, PredictRequiresItsOwnFiles) {

@@ -18,6 +18,7 @@ const kStates: Record<JobState, string> = {
 
 const kKinds = {
   simulate: 'film image',
+  plan: 'plan of several dips',
   predict: 'prediction',
   fit: 'film profile',
   validate: 'validation',

@@ -23,7 +23,23 @@ const kWhat: Record<string, string> = {
   'alignment.png': 'The scan aligned with the object',
   'error.png': 'Estimated error on the surface',
   'film_profile.toml': 'The fitted film profile',
+  'combined.png': 'Predicted appearance of the object after all dips',
+  'plan.json': 'The plan: film, poses and depths of the dips',
+  'plan.ply': 'Dip, weights and stretch at each point of the object',
 };
+
+const kWhatOfDip: Record<string, string> = {
+  film: 'film image; print it at its original size',
+  complete: 'film image if this dip printed everything that it reaches',
+  mask: 'share of the picture that this dip prints',
+  stretch: 'stretch of the film on the object',
+};
+
+/** Describes a file; undefined if there is no text for it. */
+function whatIs(name: string): string | undefined {
+  const [, kind = '', dip] = /^([a-z]+)-(\d+)\.png$/.exec(name) ?? [];
+  return kWhatOfDip[kind] ? `Dip ${dip}: ${kWhatOfDip[kind]}` : kWhat[name];
+}
 
 /** All artifacts of the job, to download. */
 export function Files({ results }: { results: Results }) {
@@ -48,11 +64,14 @@ function File({ job, artifact }: { job: string; artifact: Artifact }) {
       </a>
       <span class="quiet">
         {formatBytes(Number(artifact.sizeBytes))}
-        {kWhat[name] ? ` · ${kWhat[name]}` : ''}
+        {whatIs(name) ? ` · ${whatIs(name)}` : ''}
       </span>
     </li>
   );
 }
+
+/** A plan of twelve dips has 49. */
+const kMostPictures = 50;
 
 /** Artifacts that are images which browsers can display. */
 export function Pictures({ results, only }: { results: Results; only?: readonly string[] }) {
@@ -64,18 +83,18 @@ export function Pictures({ results, only }: { results: Results; only?: readonly 
   );
   return (
     <div class="pictures">
-      {pictures.slice(0, 12).map((artifact) => {
+      {pictures.slice(0, kMostPictures).map((artifact) => {
         const name = fileOf(artifact);
         return (
           <figure key={name}>
             <a href={artifactAddress(results.job, name, true)}>
               <img
                 src={artifactAddress(results.job, name, true)}
-                alt={kWhat[name] ?? name}
+                alt={whatIs(name) ?? name}
                 loading="lazy"
               />
             </a>
-            <figcaption>{kWhat[name] ?? name}</figcaption>
+            <figcaption>{whatIs(name) ?? name}</figcaption>
           </figure>
         );
       })}

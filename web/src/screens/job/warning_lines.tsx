@@ -7,6 +7,7 @@ export const WarningLines = ({ results }: { results: Results }) => (
     {warningsOf(results.report.value).map(({ code, message, where }) => (
       <p class="warning" key={code + where + message}>
         {message}
+        {where && <span class="quiet"> ({where})</span>}
       </p>
     ))}
   </>
