@@ -224,8 +224,8 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
 
 Warnings warnings_of_profile(const DipOptions& options) {
   if (options.film_model != FilmModel::kStokes || options.profile.drag_length_mm <= 0) return {};
-  return {{"drag_ignored",
-           "Stokes flow ignores water drag (drag_length_mm). Use --model sheet", "profile"}};
+  return {{"drag_ignored", "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
+           "profile"}};
 }
 
 Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,

@@ -94,8 +94,7 @@ FilmDrawing drawing_of(const image::Paint& paint, const film::Outline& outline) 
 Result<Dip> dip_inked(const mesh::Model& model, StokesPass first, const FilmDrawing& draw,
                       int most_passes, double dpi, const DipOptions& options,
                       const Context& context) {
-  HP_ASSIGN_OR_RETURN(InkedFlow inked,
-                      ink_passes(first, draw, most_passes, dpi, options, context));
+  HP_ASSIGN_OR_RETURN(InkedFlow inked, ink_passes(first, draw, most_passes, dpi, options, context));
   Dip dip =
       assemble_dip(model, std::move(first), std::move(inked.map), inked.flow.unsettled_mm, options);
   dip.figures.ink_passes = std::move(inked.passes);

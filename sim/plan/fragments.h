@@ -58,9 +58,9 @@ struct Fragments {
 [[nodiscard]] Result<Fragments> divide_triangles(const mesh::Surface& surface,
                                                  const Stretch& stretch, const Context& context);
 
-/// Returns for each point of the surface a corner (3 t + c for corner c of triangle t) that is there
-/// and whose triangle a dip reaches: the first one. -1 if there is none. Welded points have the same
-/// corner.
+/// Returns for each point of the surface a corner (3 t + c for corner c of triangle t) that is
+/// there and whose triangle a dip reaches: the first one. -1 if there is none. Welded points have
+/// the same corner.
 [[nodiscard]] std::vector<int> reached_corners(const mesh::Surface& surface,
                                                const Fragments& fragments);
 

@@ -20,7 +20,7 @@ using LandedInk = std::vector<std::vector<Eigen::Vector3f>>;
 [[nodiscard]] Result<LandedInk> landed_ink(const ObjectViews& views, const FilmTexture& film,
                                            const Context& context);
 
-/// Adds the ink of another film on the same views. An empty `ink` is no film.
+/// Adds the ink of another film on the same views. An empty `ink` stands for no film.
 void add_ink(const LandedInk& more, LandedInk& ink);
 
 /// Draws the object with its ink, at most full ink; light grey where no film lands.

@@ -245,8 +245,10 @@ std::string PlanTask::summary(const Report& report, const std::filesystem::path&
   std::string out = artifacts_line(dir, report);
   for (int k = 0; k < report_.immersions_size(); ++k) {
     const v1::PlanReport::Dip& of_dip = report_.immersions(k);
-    out += fmt::format("dip {}: prints {} of the surface, maximum stretch {}\n", k + 1,
-                       percent(of_dip.share()), three_digits(of_dip.stretch().max()));
+    out += of_dip.pieces() == 0
+               ? fmt::format("dip {}: prints nothing\n", k + 1)
+               : fmt::format("dip {}: prints {} of the surface, maximum stretch {}\n", k + 1,
+                             percent(of_dip.share()), three_digits(of_dip.stretch().max()));
   }
   return out + fmt::format("no dip reaches {} of the surface; {:.1f} s\n",
                            percent(report_.unreached_share()), report.total_s);

@@ -12,7 +12,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-/// Adds a flag for each field of a plan that is no message, and parses a command line.
+/// Adds a flag for each field of a plan that is not a message, and parses a command line.
 v1::PlanSpec parsed(const std::string& command_line) {
   v1::PlanSpec spec;
   CLI::App app;

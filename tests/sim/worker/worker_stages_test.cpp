@@ -96,6 +96,7 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
 }
 
 TEST_F(Stages, OfAPlanComeAsListed) {
+  write_immersions({{1, 0, 0, 0}});
   for (const Arguments& flags : {Arguments{},
                                  {"--model", "sheet", "--ink-passes", "0"},
                                  {"--model", "sheet", "--ink-passes", "2"}}) {
