@@ -7,7 +7,7 @@ Shape = tuple[np.ndarray, np.ndarray]
 
 
 def icosphere(radius_mm: float, subdivisions: int) -> Shape:
-    """A subdivided icosahedron: 2 + 10 * 4^n points. It is turned so that the equator is not made of edges."""
+    """A subdivided icosahedron: 2 + 10 * 4^n points. The axes are axes of its symmetry."""
     golden = (1 + 5 ** 0.5) / 2
     points = np.array([(-1, golden, 0), (1, golden, 0), (-1, -golden, 0), (1, -golden, 0), (0, -1, golden), (0, 1, golden),
                        (0, -1, -golden), (0, 1, -golden), (golden, 0, -1), (golden, 0, 1), (-golden, 0, -1),
@@ -18,7 +18,7 @@ def icosphere(radius_mm: float, subdivisions: int) -> Shape:
     points = points / np.linalg.norm(points[0])
     for _ in range(subdivisions):
         points, triangles = divided(points, triangles)
-    return radius_mm * points @ rotation(between(np.array([3.0, 1.0, 2.0]), np.array([0.0, 0.0, 1.0]))).T, triangles
+    return radius_mm * points, triangles
 
 
 def divided(points: np.ndarray, triangles: np.ndarray) -> Shape:
