@@ -653,7 +653,7 @@ TEST_F(Cli, SubmitPrintsTheWarningsOfTheReport) {
   const std::string warned = mesh("warn the film tears");
   const Outcome ended = client({"submit", "simulate", "--mesh", warned, "--wait"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.err.find("hydroprint: warning: the film tears\n"), std::string::npos)
+  EXPECT_NE(ended.err.find("hydroprint: warning: the film tears (here)\n"), std::string::npos)
       << ended.err;
   const Outcome silent = client({"submit", "simulate", "--mesh", mesh("sleep 0"), "--wait"});
   EXPECT_EQ(silent.status, 0) << silent.err;

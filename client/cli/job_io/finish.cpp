@@ -60,9 +60,12 @@ Status tell_warnings(Program& program, const std::string& job) {
                         client::download(program.daemon(), artifact, scratch.path()));
     const auto report = read_json_file(file);
     if (!report) return {};  // the job succeeded all the same
-    for (const auto& warning : json_at(*report, "warnings"))
-      std::cerr << "hydroprint: warning: "
-                << printable(json_string(warning, "message").value_or("")) << std::endl;
+    for (const auto& warning : json_at(*report, "warnings")) {
+      const std::string where = json_string(warning, "where").value_or("");
+      const std::string line =
+          json_string(warning, "message").value_or("") + (where.empty() ? "" : " (" + where + ")");
+      std::cerr << "hydroprint: warning: " << printable(line) << std::endl;
+    }
   }
   return {};
 }

@@ -265,7 +265,8 @@ int main(int argc, char** argv) {
   std::ofstream(flags["--out"] + "/film.png") << "film of " << file_of("mesh");
   std::ofstream report(flags["--out"] + "/report.json");
   if (!warning.empty()) {
-    report << nlohmann::json{{"warnings", {{{"code", "fake"}, {"message", warning}}}}};
+    report << nlohmann::json{
+        {"warnings", {{{"code", "fake"}, {"message", warning}, {"where", "here"}}}}};
     return 0;
   }
   for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
