@@ -558,6 +558,8 @@ TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
   EXPECT_EQ(complete("wat", 1), "watch\n");
   EXPECT_EQ(complete("submit simulate --mod", 3), "--model\n");
   EXPECT_EQ(complete("submit predict --ine", 3), "--inertia\n");
+  EXPECT_EQ(complete("submit plan --imm", 3), "--immersions\n");
+  EXPECT_EQ(complete("submit plan --model st", 4), "stokes\n");
   EXPECT_EQ(complete("--owner me submit simulate --model st", 6), "stokes\n");
   EXPECT_EQ(complete("queue pa", 2), "pause\n");
   EXPECT_EQ(complete("rig lease acq", 3), "acquire\n");

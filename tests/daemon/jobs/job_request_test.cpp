@@ -175,6 +175,23 @@ TEST(Spec, WrongFieldsOfAPlanAreNamedWithTheirMessages) {
             "NAME_INVALID");
 }
 
+TEST(Spec, WrongFilesAreNamedWithTheirPlaceInThePlan) {
+  v1::Job job = plan_of_two_dips();
+  v1::ObjectSetup& object = *job.mutable_plan()->mutable_object();
+  set_file(*object.add_extra_files(), "spot.mtl");
+  set_file(*object.add_extra_files(), "/spot.png");
+  EXPECT_EQ(refused_field(job), "plan.object.extra_files.name");
+  object.mutable_mesh()->set_name("../spot.obj");
+  EXPECT_EQ(refused_field(job), "plan.object.mesh.name");
+  job = plan_of_two_dips();
+  job.mutable_plan()->mutable_film()->mutable_profile()->set_name("p.toml");
+  const auto request = check_job(job);
+  ASSERT_FALSE(request);
+  EXPECT_EQ(request.error().reason, "ID_INVALID");
+  EXPECT_TRUE(request.error().message.starts_with("plan.film.profile.asset: "))
+      << request.error().message;
+}
+
 TEST(Spec, PredictRequiresItsOwnFiles) {
   v1::Job job;
   set_file(*job.mutable_predict()->mutable_mesh(), "spot.obj");
@@ -542,6 +559,15 @@ TEST(Digest, DependsOnlyOnInputsOfTheResult) {
   EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
   job = job_with_mesh();
   job.mutable_simulate()->mutable_mesh()->set_asset("assets/" + std::string(64, 'b'));
+  EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
+}
+
+TEST(Digest, DependsOnFilesInNestedMessages) {
+  v1::Job job = plan_of_two_dips();
+  const std::string digest = input_digest(check_job(job)->work, "w");
+  job.mutable_plan()->set_threads(3);
+  EXPECT_EQ(input_digest(check_job(job)->work, "w"), digest);
+  job.mutable_plan()->mutable_object()->mutable_mesh()->set_asset("assets/" + std::string(64, 'b'));
   EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
 }
 
