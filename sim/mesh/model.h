@@ -13,6 +13,10 @@ namespace hydroprint::mesh {
 /// Meaning of texture coordinates outside [0, 1].
 enum class Wrap { kRepeat, kMirror, kClamp };
 
+/// Use of a texture's alpha channel: blended with white, ignored, or cut out (opaque at
+/// Material::alpha_cutoff and above, else nothing is printed).
+enum class AlphaMode { kBlend, kOpaque, kMask };
+
 /// A material of a model file.
 struct Material {
   std::string name;
@@ -22,6 +26,15 @@ struct Material {
   std::vector<unsigned char> texture_bytes;  ///< the image file itself if the model embeds it
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
+  /// True for glTF: the colour of a point is the product, in linear light, of the texture, `colour`
+  /// and the vertex colour. False: a texture replaces `colour`, and `colour` the vertex colours.
+  bool multiplies = false;
+  /// True for glTF: the texture's values are sRGB in the file's own orientation, whatever its
+  /// profile, gamma and Exif data say (glTF 2.0, section 3.8.3.2).
+  bool texture_as_stored = false;
+  AlphaMode alpha_mode = AlphaMode::kBlend;
+  float alpha = 1;  ///< multiplies the texture's alpha
+  float alpha_cutoff = 0.5F;
 };
 
 /// A model as read: geometry in mm in the object frame O, and the sources of its colour.
@@ -34,7 +47,10 @@ struct Model {
   std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
   std::vector<Eigen::Vector3f> vertex_colours;  ///< sRGB-coded [0, 1]; empty: none
-  Warnings warnings;                            ///< assumptions made while reading
+  /// What seems to define colours but could not be understood, one phrase each with its place:
+  /// `material "skin": KHR_materials_pbrSpecularGlossiness`.
+  std::vector<std::string> not_understood;
+  Warnings warnings;  ///< assumptions made while reading
 };
 
 }  // namespace hydroprint::mesh

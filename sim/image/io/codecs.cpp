@@ -231,7 +231,8 @@ auto from_file(const std::filesystem::path& path, Decode decode)
   return safely(path.string(), [&] { return decode(proxy); });
 }
 
-Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context) {
+Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context,
+                            const Decoding&) {
   return from_file(path, [&](IOProxy& proxy) { return decode(proxy, path.string(), context); });
 }
 
@@ -240,7 +241,7 @@ Result<Grey16Image> read_grey16_file(const std::filesystem::path& path, const Co
 }
 
 Result<ReadImage> read_bytes(const std::vector<unsigned char>& bytes, const std::string& name,
-                             const Context& context) {
+                             const Context& context, const Decoding&) {
   OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
   return safely(name, [&] { return decode(proxy, name, context); });
 }

@@ -18,9 +18,10 @@ namespace hydroprint::image {
 /// and most runs need none of them. These functions are therefore in a module that is loaded on
 /// first use.
 struct ImageCodecs {
-  Result<ReadImage> (*read_file)(const std::filesystem::path& path, const Context& context);
+  Result<ReadImage> (*read_file)(const std::filesystem::path& path, const Context& context,
+                                 const Decoding& decoding);
   Result<ReadImage> (*read_bytes)(const std::vector<unsigned char>& bytes, const std::string& name,
-                                  const Context& context);
+                                  const Context& context, const Decoding& decoding);
   Result<std::vector<unsigned char>> (*encode_png_rgba)(const std::string& name, int width,
                                                         int height,
                                                         const std::vector<std::uint8_t>& rgba);

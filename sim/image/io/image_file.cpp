@@ -36,10 +36,11 @@ Status check_file(const std::filesystem::path& path) {
 
 void load_image_libraries() { (void)codecs(); }
 
-Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context) {
+Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context,
+                             const Decoding& decoding) {
   HP_RETURN_IF_ERROR(check_file(path));
   HP_ASSIGN_OR_RETURN(const ImageCodecs* library, codecs());
-  return library->read_file(path, context);
+  return library->read_file(path, context, decoding);
 }
 
 Result<Grey16Image> read_grey16(const std::filesystem::path& path, const Context& context) {
@@ -49,9 +50,9 @@ Result<Grey16Image> read_grey16(const std::filesystem::path& path, const Context
 }
 
 Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std::string& name,
-                             const Context& context) {
+                             const Context& context, const Decoding& decoding) {
   HP_ASSIGN_OR_RETURN(const ImageCodecs* library, codecs());
-  return library->read_bytes(bytes, name, context);
+  return library->read_bytes(bytes, name, context, decoding);
 }
 
 Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,

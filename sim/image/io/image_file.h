@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +24,25 @@ struct Texels {
   std::vector<Texel> texels;
 };
 
+/// Meaning of an alpha channel: blended with white, ignored, or white below a cutoff.
+enum class Alpha { kOverWhite, kIgnored, kCutOut };
+
+/// How the values of an image file become colours.
+struct Decoding {
+  /// True: values are sRGB-coded (floats linear) and rows as stored. False: the image is turned as
+  /// its Exif orientation says and converted to sRGB by its ICC profile, else by its gamma.
+  bool as_stored = false;
+  Alpha alpha = Alpha::kOverWhite;
+  float opacity = 1;    ///< multiplies the alpha channel (or takes its place)
+  float cutoff = 0.5F;  ///< of kCutOut
+  Eigen::Vector3f tint = Eigen::Vector3f::Ones();  ///< multiplies the colour in linear light
+};
+
 struct ReadImage {
   Texels image;
-  bool had_alpha = false;  ///< had transparent parts, which were composited over white
+  bool had_alpha = false;  ///< had transparent parts, which are white or blended with white
+  /// Assumptions made while decoding, for example about an unusable colour profile.
+  Warnings warnings;
 };
 
 /// Larger images are rejected before they are decoded.
@@ -38,15 +55,16 @@ void load_image_libraries();
 
 /// Reads a PNG, JPEG or TIFF image (detected by content, not by name): grey, RGB or palette, with
 /// or without alpha (composited over white in linear light), 8 or 16 bits or floats. Integers are
-/// read as sRGB-coded, floats as linear. Errors name the file: kInvalidArgument for other formats,
-/// kOutOfRange for images beyond the limits above, kDataLoss for truncated or corrupt files and
-/// files too short for the announced size.
+/// read as sRGB-coded, floats as linear, unless `decoding` and the file say otherwise. Errors name
+/// the file: kInvalidArgument for other formats, kOutOfRange for images beyond the limits above,
+/// kDataLoss for truncated or corrupt files and files too short for the announced size.
 [[nodiscard]] Result<ReadImage> read_image(const std::filesystem::path& path,
-                                           const Context& context);
+                                           const Context& context, const Decoding& decoding = {});
 
 /// Same as above, for an image embedded in another file; `name` identifies it in messages.
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
-                                           const std::string& name, const Context& context);
+                                           const std::string& name, const Context& context,
+                                           const Decoding& decoding = {});
 
 /// Resolution written to pictures for the screen.
 inline constexpr double kScreenDpi = 96;
