@@ -132,7 +132,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     return fail(Code::kInvalidArgument, name + ": the longest edge allowed must be positive");
   context.progress("surface", 0);
   Surface surface;
-  const double tolerance = kNothing * diagonal(model.vertices);
+  const double tolerance = nothing_mm(model.vertices);
   auto weld = weld_points(model.vertices, tolerance);
   const auto kept = proper_triangles(model, weld, tolerance);
   if (kept.empty())

@@ -46,7 +46,8 @@ struct Model {
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  ///< per triangle, v up; empty: none
   std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
-  std::vector<Eigen::Vector3f> vertex_colours;  ///< sRGB-coded [0, 1]; empty: none
+  std::vector<Eigen::Vector3f> vertex_colours;    ///< sRGB-coded [0, 1]; empty: none
+  std::vector<Eigen::Vector3f> triangle_colours;  ///< likewise, where vertices have none
   /// What seems to define colours but could not be understood, one phrase each with its place:
   /// `material "skin": KHR_materials_pbrSpecularGlossiness`.
   std::vector<std::string> not_understood;

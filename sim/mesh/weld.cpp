@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "sim/base/check.h"
 
@@ -93,6 +94,23 @@ double diagonal(const std::vector<Eigen::Vector3d>& points) {
     high = high.cwiseMax(p);
   }
   return (high - low).norm();
+}
+
+Eigen::Vector3d far_centre_mm(const std::vector<Eigen::Vector3d>& points) {
+  constexpr double kFar_mm = 1e4;
+  Eigen::AlignedBox3d box;
+  for (const auto& p : points) box.extend(p);
+  if (box.isEmpty()) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d centre = box.center();
+  const bool far = centre.norm() > kFar_mm && centre.norm() > 10 * box.sizes().maxCoeff();
+  return far ? centre : Eigen::Vector3d::Zero();
+}
+
+double nothing_mm(const std::vector<Eigen::Vector3d>& points) {
+  double largest = 0;
+  for (const auto& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const double step = std::numeric_limits<double>::epsilon() * largest;
+  return std::max(kNothing * diagonal(points), 4 * step);
 }
 
 std::vector<int> weld_points(const std::vector<Eigen::Vector3d>& points, double tolerance) {

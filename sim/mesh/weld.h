@@ -12,6 +12,16 @@ inline constexpr double kNothing = 1e-9;
 /// Returns the diagonal of the points' bounding box; 0 if there are no points.
 [[nodiscard]] double diagonal(const std::vector<Eigen::Vector3d>& points);
 
+/// Returns the length, mm, below which lengths between these points count as zero: kNothing of the
+/// diagonal, but at least four steps of a double at the largest coordinate, for models far from the
+/// origin.
+[[nodiscard]] double nothing_mm(const std::vector<Eigen::Vector3d>& points);
+
+/// Returns the centre of the points' bounding box if it lies more than 10 m and ten times the box's
+/// longest side from the origin, as in scans in map coordinates; else the origin. Computations in
+/// floats must be relative to it.
+[[nodiscard]] Eigen::Vector3d far_centre_mm(const std::vector<Eigen::Vector3d>& points);
+
 /// Finds coincident points. Points are processed in order; each joins the first earlier
 /// representative within `tolerance`, or becomes a representative itself. Takes time linear in the
 /// number of points.

@@ -196,17 +196,6 @@ std::vector<double> point_areas_mm2(const mesh::Surface& surface) {
   return out;
 }
 
-/// Reads the picture, which must have colours.
-Result<image::Paint> paint_of(const mesh::Model& model, const PlanOptions& options,
-                              const Context& context) {
-  HP_ASSIGN_OR_RETURN(image::Paint paint, image::load_paint(model, options.texture, context));
-  if (paint.has_colour()) return paint;
-  return fail(Code::kInvalidArgument,
-              options.mesh.string() +
-                  ": has no colours to divide among the dips. Give a texture, or a model with "
-                  "colours");
-}
-
 }  // namespace
 
 Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
@@ -216,13 +205,13 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
       read_inputs({options.mesh, options.scale, options.texture.has_value(), true}, context));
   HP_ASSIGN_OR_RETURN(out.surface,
                       mesh::make_surface(out.model, options.dip.surface_edge_mm, context));
-  const auto read_paint = [&](const Context& reading) {
-    return paint_of(out.model, options, reading);
+  const auto paint = [&](const Context& reading) {
+    return read_paint(out.model, options.texture, reading);
   };
   const auto solve = [&](const Context& behind) {
     return stokes_dips(out.surface, options, behind);
   };
-  HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, read_paint));
+  HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, paint));
   out.dips = std::move(both.first);
   out.paint = std::move(both.second);
   HP_ASSIGN_OR_RETURN(out.regions,

@@ -1,9 +1,14 @@
 #include "sim/pipeline/read_inputs.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "sim/base/run_beside.h"
 #include "sim/image/io/image_file.h"
@@ -55,7 +60,37 @@ Result<mesh::Model> read_model(const ModelInput& input, const Context& context) 
   return std::move(both.first);
 }
 
+/// Returns up to three phrases, and how many more there are.
+std::string list_of(const std::vector<std::string>& phrases) {
+  constexpr std::size_t kMost = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(phrases.size(), kMost); ++i)
+    out += (i == 0 ? "" : "; ") + phrases[i];
+  if (phrases.size() > kMost) out += fmt::format("; and {} more", phrases.size() - kMost);
+  return out;
+}
+
+std::string no_colour_text(const mesh::Model& model) {
+  std::string out =
+      model.path.string() + ": has no colour that was understood, so the film would stay blank. ";
+  if (!model.not_understood.empty())
+    out += "Found, but not understood: " + list_of(model.not_understood) + ". ";
+  if (model.corner_uvs.empty())
+    return out +
+           "Give the model colours or a texture in a 3D editor and export it again; a texture "
+           "file (--texture) needs texture coordinates, which it lacks";
+  return out + "Give a texture (--texture), or give the model colours in a 3D editor";
+}
+
 }  // namespace
+
+Result<image::Paint> read_paint(const mesh::Model& model,
+                                const std::optional<std::filesystem::path>& texture,
+                                const Context& context) {
+  HP_ASSIGN_OR_RETURN(image::Paint paint, image::load_paint(model, texture, context));
+  if (paint.has_colour()) return paint;
+  return fail(Code::kInvalidArgument, no_colour_text(model));
+}
 
 Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context) {
   context.progress("reading", 0);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
+#include "sim/image/texture/paint.h"
 #include "sim/mesh/model.h"
 
 namespace hydroprint::pipeline {
@@ -20,5 +22,12 @@ struct ModelInput {
 /// Returns the errors of mesh::read_model(). If no texture is given, also returns kNotFound for a
 /// model whose material file or material is missing.
 [[nodiscard]] Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context);
+
+/// Loads a model's colours for a film image. Returns the errors of image::load_paint(), and
+/// kInvalidArgument for a model without any colour that was understood, because its film would stay
+/// blank; the message says what was found and not understood.
+[[nodiscard]] Result<image::Paint> read_paint(const mesh::Model& model,
+                                              const std::optional<std::filesystem::path>& texture,
+                                              const Context& context);
 
 }  // namespace hydroprint::pipeline

@@ -45,8 +45,10 @@ Result<PaintedStokesPass> run_painted_stokes_pass(const mesh::Model& model,
     HP_ASSIGN_OR_RETURN(StokesPass pass, solve(context));
     return PaintedStokesPass{std::move(pass), std::nullopt};
   }
+  const bool needs_colour = options.images && options.needs_colour;
   HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, [&](const Context& reading) {
-                        return image::load_paint(model, options.texture, reading);
+                        return needs_colour ? read_paint(model, options.texture, reading)
+                                            : image::load_paint(model, options.texture, reading);
                       }));
   return PaintedStokesPass{std::move(both.first), std::move(both.second)};
 }

@@ -22,7 +22,8 @@ struct SimulateOptions {
   /// Number of passes of the two-step scheme (section 4.3); 0: uses the ink in dip.ink. Only for
   /// the sheet, and for objects with colours.
   int ink_passes = 1;
-  bool images = true;  ///< false: computes only the film's landing, without images
+  bool images = true;        ///< false: computes only the film's landing, without images
+  bool needs_colour = true;  ///< false: a model without colours is accepted, and its film blank
 };
 
 /// The image to print, and pictures for display.
@@ -44,7 +45,8 @@ struct Simulation {
 
 /// Runs all steps of section 4: model, paint, dip, film image, pictures. Returns the errors of its
 /// stages. If no texture is given, also returns kNotFound for a model whose material file or
-/// material is missing, because its colours would silently be white.
+/// material is missing, because its colours would silently be white. Returns the errors of
+/// read_paint() unless `needs_colour` or `images` is false.
 [[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

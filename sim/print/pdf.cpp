@@ -21,7 +21,7 @@
 
 #include "sim/image/io/png.h"
 #include "sim/print/embedded_font.h"
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::print {
 namespace {
@@ -226,7 +226,7 @@ void describe(QPDF& pdf, const Document& document) {
   }
   QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
   // The job name may be malformed UTF-8, which a PDF must not contain.
-  const std::string title = text::encode_utf8(text::decode_utf8(document.title));
+  const std::string title = encode_utf8(decode_utf8(document.title));
   info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
   info.replaceKey("/Producer", QPDFObjectHandle::newString("Hydroprint"));
   pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(info));

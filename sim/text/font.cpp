@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "sim/base/input_file.h"
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::text {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "sim/base/check.h"
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::text {
 namespace {

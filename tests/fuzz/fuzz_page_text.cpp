@@ -7,7 +7,7 @@
 
 #include "sim/text/font.h"
 #include "sim/text/font_subset.h"
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 #include "tests/fuzz/expect.h"
 
 namespace hydroprint::fuzz {
@@ -15,8 +15,8 @@ namespace {
 
 void try_text(std::string_view bytes) {
   static const text::Font& font = *text::Font::standard().value();
-  const std::u32string decoded = text::decode_utf8(bytes);
-  HP_EXPECT(text::decode_utf8(text::encode_utf8(decoded)) == decoded);
+  const std::u32string decoded = decode_utf8(bytes);
+  HP_EXPECT(decode_utf8(encode_utf8(decoded)) == decoded);
   const text::Line line = font.lay_out(bytes);
   HP_EXPECT(line.glyphs.size() == decoded.size());
   HP_EXPECT(line.width >= 0 && line.low.allFinite() && line.high.allFinite());

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "sim/base/one_line.h"
 #include "sim/mesh/read/read_model.h"
 
 namespace hydroprint::mesh {
@@ -34,14 +35,17 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   return text;
 }
 
+std::string without_byte_order_mark(std::string text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
 tl::unexpected<Error> bad_input(const std::filesystem::path& path, std::string_view place,
                                 std::string_view what) {
   std::string message = path.string() + ": ";
   if (!place.empty()) message.append(place).append(": ");
   message += what;
-  for (auto& c : message)
-    if (c == '\n' || c == '\r') c = ' ';
-  return fail(Code::kInvalidArgument, std::move(message));
+  return fail(Code::kInvalidArgument, one_line(std::move(message)));
 }
 
 tl::unexpected<Error> damaged(const std::filesystem::path& path, std::string_view place,

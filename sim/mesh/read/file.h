@@ -13,6 +13,9 @@ namespace hydroprint::mesh {
 /// it cannot be read.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
+/// Returns the text without the byte order mark with which Windows programs begin UTF-8.
+[[nodiscard]] std::string without_byte_order_mark(std::string text);
+
 /// Returns kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
 [[nodiscard]] tl::unexpected<Error> bad_input(const std::filesystem::path& path,
                                               std::string_view place, std::string_view what);

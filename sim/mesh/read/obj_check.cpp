@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "sim/mesh/read/file.h"
@@ -12,11 +13,7 @@
 namespace hydroprint::mesh {
 namespace {
 
-std::string quoted(std::string_view word) {
-  std::string text(1, '"');
-  text.append(word.substr(0, 40));
-  return text.append(1, '"');
-}
+std::string quoted(std::string_view word) { return fmt::format("\"{}\"", word.substr(0, 40)); }
 
 class ObjChecker {
  public:
@@ -25,10 +22,11 @@ class ObjChecker {
   Result<ObjFacts> run(const Context& context) {
     while (!rest_.empty()) {
       if (++line_ % 65536 == 0) HP_RETURN_IF_ERROR(check_cancelled(context));
-      HP_RETURN_IF_ERROR(check(next_line()));
+      HP_RETURN_IF_ERROR(check(next_line(rest_)));
     }
     HP_RETURN_IF_ERROR(check_last(vertex_, facts_.vertices, "vertex"));
     HP_RETURN_IF_ERROR(check_last(texture_, facts_.texture_coordinates, "texture coordinate"));
+    finish_colours();
     return std::move(facts_);
   }
 
@@ -38,15 +36,6 @@ class ObjChecker {
     std::int64_t index = 0;
     std::size_t line = 0;
   };
-
-  std::string_view next_line() {
-    const auto is_end = [](char c) { return c == '\n' || c == '\r'; };  // find_first_of is slow
-    const auto end = static_cast<std::size_t>(std::ranges::find_if(rest_, is_end) - rest_.begin());
-    const auto line = rest_.substr(0, end);
-    rest_.remove_prefix(end);
-    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
-    return line;
-  }
 
   [[nodiscard]] tl::unexpected<Error> bad(std::size_t line, std::string_view what) const {
     return bad_input(path_, place(line), what);
@@ -58,41 +47,77 @@ class ObjChecker {
 
   Status check(std::string_view line) {
     if (line.find('\0') != line.npos)
-      return bad(line_, "contains binary data; use a Wavefront OBJ file in text format");
+      return bad(line_, "contains binary data; use a Wavefront OBJ file in text format (UTF-8)");
     const auto keyword = next_word(line);
     if (keyword == "v") return check_vertex(line);
     if (keyword == "vt") return check_texture_coordinate(line);
     if (keyword == "f") return check_face(line);
     if (keyword == "mtllib") facts_.libraries.emplace_back(line);
+    if (keyword == "#MRGB") return read_polypaint(trimmed(line));
     return {};
   }
 
-  /// @return the number of values in the line
-  Result<std::size_t> numbers(std::string_view line, std::array<double, 8>& values) {
+  Status check_vertex(std::string_view line) {
+    std::array<double, 7> values{};
     std::size_t count = 0;
     for (auto word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
-      const auto number = parse_number(word);
+      auto number = parse_number(word);
+      if (!number && count > 2 && is_not_finite(word)) number = std::nan("");
       if (!number) return broken(line_, quoted(word) + " is not a finite number");
       if (count < values.size()) values[count] = *number;
       ++count;
     }
-    return count;
-  }
-
-  Status check_vertex(std::string_view line) {
-    std::array<double, 8> values{};
-    HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
     if (count < 3) return broken(line_, "a vertex needs three coordinates");
     ++facts_.vertices;
-    if (count == 6 || count == 7)
-      facts_.vertex_colours.push_back(
-          Eigen::Vector3d(values[count - 3], values[count - 2], values[count - 1]).cast<float>());
+    if (count == 6 || count == 7) add_colour(values);
+    if (count == 5 || count > 7) ++odd_vertices_;
     return {};
   }
 
+  void add_colour(const std::array<double, 7>& values) {
+    facts_.vertex_colours.resize(facts_.vertices - 1, Eigen::Vector3f::Ones());
+    facts_.vertex_colours.push_back(Eigen::Vector3d(values[3], values[4], values[5]).cast<float>());
+    ++facts_.coloured_vertices;
+  }
+
+  /// Reads a comment of ZBrush: eight hexadecimal digits MMRRGGBB for each vertex, in their order.
+  Status read_polypaint(std::string_view digits) {
+    for (; digits.size() >= 8; digits.remove_prefix(8)) {
+      std::uint32_t value = 0;
+      const auto* end = digits.data() + 8;
+      if (std::from_chars(digits.data(), end, value, 16).ptr != end)
+        return broken(line_, quoted(digits.substr(0, 8)) + " is not a colour");
+      polypaint_.push_back(Eigen::Vector3f(static_cast<float>(value >> 16 & 255),
+                                           static_cast<float>(value >> 8 & 255),
+                                           static_cast<float>(value & 255)) /
+                           255);
+    }
+    return {};
+  }
+
+  void finish_colours() {
+    if (facts_.coloured_vertices == 0 && !polypaint_.empty()) {
+      if (polypaint_.size() == facts_.vertices) {
+        facts_.vertex_colours = std::move(polypaint_);
+        facts_.coloured_vertices = facts_.vertices;
+      } else {
+        facts_.not_understood.push_back(fmt::format("{} colours in #MRGB comments for {} vertices",
+                                                    polypaint_.size(), facts_.vertices));
+      }
+    }
+    if (facts_.coloured_vertices > 0)
+      facts_.vertex_colours.resize(facts_.vertices, Eigen::Vector3f::Ones());
+    if (odd_vertices_ > 0)
+      facts_.not_understood.push_back(
+          fmt::format("{} vertices with neither 3, 4, 6 nor 7 numbers", odd_vertices_));
+  }
+
   Status check_texture_coordinate(std::string_view line) {
-    std::array<double, 8> values{};
-    HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
+    std::size_t count = 0;
+    for (auto word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
+      if (!parse_number(word)) return broken(line_, quoted(word) + " is not a finite number");
+      ++count;
+    }
     if (count < 1) return broken(line_, "a texture coordinate is empty");
     ++facts_.texture_coordinates;
     return {};
@@ -145,6 +170,8 @@ class ObjChecker {
   std::size_t line_ = 0;
   Largest vertex_;
   Largest texture_;
+  std::vector<Eigen::Vector3f> polypaint_;
+  std::size_t odd_vertices_ = 0;
   ObjFacts facts_;
 };
 

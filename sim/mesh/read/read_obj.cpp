@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <exception>
-#include <fstream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <set>
-#include <sstream>
 #include <streambuf>
 
+#include "sim/mesh/read/colours.h"
 #include "sim/mesh/read/file.h"
+#include "sim/mesh/read/mtl.h"
+#include "sim/mesh/read/names.h"
 #include "sim/mesh/read/numbers.h"
 #include "sim/mesh/read/obj_check.h"
 #include "sim/mesh/read/readers.h"
@@ -48,30 +51,12 @@ void blank_face_comments(std::string& text) {
   }
 }
 
-struct MaterialFile {
-  std::vector<tinyobj::material_t> materials;
-  std::map<std::string, int> by_name;
-  std::set<std::string> coloured;  ///< materials with a Kd line, which the importer does not report
-  std::filesystem::path folder;
+/// The materials of the files that a model names, by their names.
+struct Library {
+  std::map<std::string, MtlMaterial> by_name;
+  std::map<std::string, std::vector<std::string>> names_by_key;  ///< keys of name_key()
+  std::map<std::string, std::filesystem::path> folder_of;
 };
-
-std::set<std::string> names_with_colour(const std::string& text) {
-  std::set<std::string> names;
-  std::string name;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::string_view rest = line;
-    const auto keyword = next_word(rest);
-    if (keyword == "newmtl") {
-      const auto begin = rest.find_first_not_of(" \t");
-      const auto end = rest.find_last_not_of(" \t\r");
-      name = begin == rest.npos ? "" : rest.substr(begin, end - begin + 1);
-    } else if (keyword == "Kd") {
-      names.insert(name);
-    }
-  }
-  return names;
-}
 
 class ObjImporter {
  public:
@@ -79,10 +64,10 @@ class ObjImporter {
     model_.path = path;
     model_.vertices.reserve(facts_.vertices);
     model_.triangles.reserve(facts_.triangles);
-    for (const auto& line : facts_.libraries) read_library(line);
   }
 
   Result<Model> run(std::string& text) {
+    for (const auto& line : facts_.libraries) HP_RETURN_IF_ERROR(read_library(line));
     tinyobj::callback_t callback;
     callback.vertex_cb = [](void* self, double x, double y, double z, double) {
       cast(self).model_.vertices.emplace_back(x, y, z);
@@ -111,40 +96,51 @@ class ObjImporter {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
   }
 
-  void read_library(const std::string& line) {
+  Status read_library(const std::string& line) {
     const auto folder = model_.path.parent_path();
     std::vector<std::filesystem::path> candidates = {resolve_texture(folder, line)};
+    if (candidates.front().empty()) return {};
     std::string_view rest = line;
     for (auto word = next_word(rest); !word.empty(); word = next_word(rest))
       candidates.push_back(folder / word);
     bool found = false;
+    std::error_code error;
     for (const auto& candidate : candidates) {
-      if (candidate.empty() || !std::filesystem::is_regular_file(candidate)) continue;
-      read_materials(candidate);
+      if (!std::filesystem::is_regular_file(candidate, error)) continue;
+      HP_RETURN_IF_ERROR(read_materials(candidate));
       found = true;
       if (&candidate == &candidates.front()) break;  // the whole line is one name
     }
-    if (!found)
-      warn("material_file_missing",
-           "the material file" + line + " was not found, so its colours and textures are missing");
+    if (found) return {};
+    const auto& missing = candidates.front();
+    if (const auto similar = similar_file(missing, folder)) {
+      model_.warnings.push_back(similar_name(missing, *similar, model_.path));
+      return read_materials(*similar);
+    }
+    missing_files_.push_back(trimmed(line));
+    return {};
   }
 
-  void read_materials(const std::filesystem::path& path) {
-    auto text = read_file(path);
-    if (!text) return warn("material_file_missing", text.error().message);
-    MaterialFile file;
-    file.folder = path.parent_path();
-    file.coloured = names_with_colour(*text);
-    MemoryBuffer buffer(*text);
-    std::istream stream(&buffer);
-    std::string warning;
-    std::string error;
-    tinyobj::LoadMtl(&file.by_name, &file.materials, &stream, &warning, &error);
-    files_.push_back(std::move(file));
+  Status read_materials(const std::filesystem::path& path) {
+    std::error_code error;
+    if (std::filesystem::file_size(path, error) == 0 && !error) return {};
+    HP_ASSIGN_OR_RETURN(std::string text, read_file(path));
+    HP_ASSIGN_OR_RETURN(MtlFile file, parse_mtl(without_byte_order_mark(text), path));
+    for (auto& material : file.materials) {
+      library_.folder_of.try_emplace(material.name, path.parent_path());
+      library_.names_by_key[name_key(material.name)].push_back(material.name);
+      library_.by_name.try_emplace(material.name, material);
+    }
+    std::ranges::move(file.warnings, std::back_inserter(model_.warnings));
+    return {};
   }
 
-  void use(std::string name) {
-    name.erase(name.find_last_not_of(" \t\r") + 1);
+  void use(const std::string& written) {
+    const std::string name = trimmed(written);
+    if (name.empty()) {  // as Blender writes it for faces without a material
+      current_ = -1;
+      return;
+    }
     const auto known = used_.find(name);
     if (known != used_.end()) {
       current_ = known->second;
@@ -152,37 +148,43 @@ class ObjImporter {
     }
     current_ = static_cast<int>(model_.materials.size());
     used_.emplace(name, current_);
-    model_.materials.push_back(find(name));
-    transforms_.push_back(transform_);
+    add_material(name);
   }
 
-  /// Returns the material as defined in the files; one without colour if it is not defined.
-  Material find(const std::string& name) {
+  /// Returns the material of this name, or the only one whose name differs in case or Unicode form.
+  const MtlMaterial* find(const std::string& name) {
+    const auto exact = library_.by_name.find(name);
+    if (exact != library_.by_name.end()) return &exact->second;
+    const auto similar = library_.names_by_key.find(name_key(name));
+    if (similar == library_.names_by_key.end()) return nullptr;
+    const std::set<std::string> names(similar->second.begin(), similar->second.end());
+    if (names.size() != 1) return nullptr;
+    warn("similar_name",
+         fmt::format("the material \"{}\" was taken for \"{}\", which is not defined",
+                     *names.begin(), name));
+    return &library_.by_name.at(*names.begin());
+  }
+
+  /// Appends the material as defined in the files; one without colour if it is not defined.
+  void add_material(const std::string& name) {
     Material material;
     material.name = name;
-    transform_ = {};
-    for (const auto& file : files_) {
-      const auto at = file.by_name.find(name);
-      if (at == file.by_name.end()) continue;
-      const auto& found = file.materials[static_cast<std::size_t>(at->second)];
-      if (file.coloured.contains(name)) {
-        material.has_colour = true;
-        for (int k = 0; k < 3; ++k)
-          material.colour[k] = std::clamp(static_cast<float>(found.diffuse[k]), 0.0F, 1.0F);
+    Transform transform;
+    if (const MtlMaterial* found = find(name)) {
+      material.has_colour = found->colour.has_value();
+      material.colour = found->colour.value_or(Eigen::Vector3f::Ones());
+      if (!found->texture.empty()) {
+        material.texture = resolve_texture(library_.folder_of.at(found->name), found->texture);
+        material.wrap_u = material.wrap_v = found->wrap;
+        transform = {found->scale, found->offset};
       }
-      if (!found.diffuse_texname.empty()) {
-        const auto& options = found.diffuse_texopt;
-        material.texture = resolve_texture(file.folder, found.diffuse_texname);
-        material.wrap_u = material.wrap_v = options.clamp ? Wrap::kClamp : Wrap::kRepeat;
-        transform_.scale = {static_cast<float>(options.scale[0]),
-                            static_cast<float>(options.scale[1])};
-        transform_.offset = {static_cast<float>(options.origin_offset[0]),
-                             static_cast<float>(options.origin_offset[1])};
-      }
-      return material;
+      for (const std::string& what : found->not_understood)
+        model_.not_understood.push_back(fmt::format("material \"{}\": {}", name, what));
+    } else {
+      missing_.insert(name);
     }
-    missing_.insert(name);
-    return material;
+    model_.materials.push_back(std::move(material));
+    transforms_.push_back(transform);
   }
 
   /// Corners may precede their vertices in the file, so faces are resolved at the end.
@@ -239,15 +241,38 @@ class ObjImporter {
       model_.triangle_material.clear();
     else
       add_default_material();
-    if (facts_.vertex_colours.size() == model_.vertices.size())
-      model_.vertex_colours = std::move(facts_.vertex_colours);
-    else if (!facts_.vertex_colours.empty())
-      warn("vertex_colours_ignored", "only some vertices have colours: the colours are not used");
-    const bool already_said = files_.empty() && !facts_.libraries.empty();
-    if (!missing_.empty() && !already_said)
+    take_vertex_colours();
+    warn_of_materials();
+  }
+
+  void take_vertex_colours() {
+    bring_to_unit(facts_.vertex_colours, "vertices", model_.path, model_.warnings);
+    if (facts_.coloured_vertices > 0 && facts_.coloured_vertices < facts_.vertices)
+      warn("vertex_colours_in_part",
+           fmt::format("only {} of {} vertices have colours: the others are white",
+                       facts_.coloured_vertices, facts_.vertices));
+    model_.vertex_colours = std::move(facts_.vertex_colours);
+    for (std::string& what : facts_.not_understood)
+      model_.not_understood.push_back(std::move(what));
+  }
+
+  /// A missing file or material is reported if a face needs it.
+  void warn_of_materials() {
+    if (missing_.empty() || !model_.vertex_colours.empty()) {
+      if (!missing_files_.empty())
+        warn("material_file_unused",
+             fmt::format("the material file {} was not found; no face needs it",
+                         missing_files_.front()));
+    } else if (!missing_files_.empty()) {
+      warn(
+          "material_file_missing",
+          fmt::format("the material file {} was not found, so its colours and textures are missing",
+                      missing_files_.front()));
+    } else {
       warn("material_missing",
            "material \"" + *missing_.begin() +
                "\" is not defined in the material file, so its faces have no colour");
+    }
   }
 
   void add_default_material() {
@@ -267,10 +292,10 @@ class ObjImporter {
 
   ObjFacts facts_;
   Model model_;
-  std::vector<MaterialFile> files_;
+  Library library_;
+  std::vector<std::string> missing_files_;
   std::map<std::string, int> used_;
   std::set<std::string> missing_;
-  Transform transform_;
   std::vector<Transform> transforms_;  ///< texture transform of each material
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<int> corners_;
@@ -285,6 +310,7 @@ class ObjImporter {
 
 Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
                        const Context& context) try {
+  bytes = without_byte_order_mark(std::move(bytes));
   join_continued_lines(bytes);
   blank_face_comments(bytes);
   HP_ASSIGN_OR_RETURN(ObjFacts facts, check_obj(bytes, path, context));

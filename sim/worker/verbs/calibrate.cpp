@@ -18,6 +18,7 @@
 #include "sim/image/io/image_file.h"
 #include "sim/mesh/make_surface.h"
 #include "sim/mesh/read/read_model.h"
+#include "sim/mesh/weld.h"
 #include "sim/worker/common/artifact_task.h"
 #include "sim/worker/common/frames.h"
 #include "sim/worker/common/object.h"
@@ -196,8 +197,7 @@ class Calibrate final : public ArtifactTask {
                                     const std::filesystem::path& dir) const override;
 
  private:
-  [[nodiscard]] Status write(const std::filesystem::path& folder, const mesh::Surface& surface,
-                             const Context& context) const;
+  [[nodiscard]] Status write(const std::filesystem::path& folder, const Context& context) const;
 
   CalibrateOptions options_;
   film::Outline outline_;
@@ -219,24 +219,28 @@ Status Calibrate::compute(OutFolder& folder, Report& report, const Context& cont
   HP_ASSIGN_OR_RETURN(task.surface,
                       mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
   mesh_ = {model.vertices.size(), model.triangles.size()};
+  // The alignment computes in floats, so the surface is moved to the origin, and the poses with it.
+  const Eigen::Vector3d centre_mm = mesh::far_centre_mm(model.vertices);
+  for (Eigen::Vector3d& p : task.surface.points) p -= centre_mm;
   task.frames = scan.frames.frames;
   task.camera = scan.camera;
   task.nominal_FO = object.X_FO;
+  if (task.nominal_FO) task.nominal_FO->translate(centre_mm);
   task.gripper_mm = options_.gripper_mm;
   task.half_film_mm = outline_.size_mm() / 2;
   HP_ASSIGN_OR_RETURN(found_, calibrate::calibrate(task, context));
   lowest_mm_ = lowest_mm(task.surface, found_.object.X_FO);
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write_pictures(folder.partial(), task.surface, found_, context));
+  found_.object.X_FO.translate(-centre_mm);
   report.warnings = model.warnings;
   report.warnings.insert(report.warnings.end(), found_.warnings.begin(), found_.warnings.end());
-  HP_RETURN_IF_ERROR(folder.create());
-  HP_RETURN_IF_ERROR(write(folder.partial(), task.surface, context));
+  HP_RETURN_IF_ERROR(write(folder.partial(), context));
   report.artifacts = {"calibration.json", "pose.json", "alignment.png", "error.png"};
   return {};
 }
 
-Status Calibrate::write(const std::filesystem::path& folder, const mesh::Surface& surface,
-                        const Context& context) const {
-  HP_RETURN_IF_ERROR(write_pictures(folder, surface, found_, context));
+Status Calibrate::write(const std::filesystem::path& folder, const Context& context) const {
   context.progress("writing", 0);
   HP_RETURN_IF_ERROR(image::write_artifact(folder / "calibration.json", figures().dump(1) + "\n"));
   return image::write_artifact(folder / "pose.json", pose_file_json(found_).dump(1) + "\n");

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hydroprint/v1/report.pb.h"
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -62,7 +62,7 @@ void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>&
 }
 
 /// JSON must be UTF-8, but file names may contain other bytes.
-std::string utf8(const std::string& text) { return text::encode_utf8(text::decode_utf8(text)); }
+std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
 
 }  // namespace
 

@@ -90,6 +90,7 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
   out.dpi = flow.dpi;
   out.ink_passes = flow.passes();
   out.images = !flow.map_only;
+  out.needs_colour = flow.ink_image.empty();  // --ink-image is the film's print
   return out;
 }
 

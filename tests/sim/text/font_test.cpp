@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::text {

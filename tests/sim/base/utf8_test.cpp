@@ -1,10 +1,10 @@
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace hydroprint::text {
+namespace hydroprint {
 namespace {
 
 TEST(Utf8, WellFormedTextSurvivesDecodingAndEncoding) {
@@ -45,4 +45,4 @@ TEST(Utf8, AnyBytesDecodeToTextThatSurvives) {
 }
 
 }  // namespace
-}  // namespace hydroprint::text
+}  // namespace hydroprint

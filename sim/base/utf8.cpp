@@ -1,6 +1,6 @@
-#include "sim/text/utf8.h"
+#include "sim/base/utf8.h"
 
-namespace hydroprint::text {
+namespace hydroprint {
 namespace {
 
 /// The sequence that a first byte announces. Only the range of the second byte depends on the
@@ -76,4 +76,4 @@ std::string encode_utf8(std::u32string_view text) {
   return out;
 }
 
-}  // namespace hydroprint::text
+}  // namespace hydroprint

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace hydroprint::text {
+namespace hydroprint {
 
 /// The replacement character, for bytes that are not UTF-8 and characters that cannot be drawn.
 inline constexpr char32_t kReplacement = 0xFFFD;
@@ -15,4 +15,4 @@ inline constexpr char32_t kReplacement = 0xFFFD;
 /// Encodes code points as UTF-8; surrogates and numbers above U+10FFFF become U+FFFD.
 [[nodiscard]] std::string encode_utf8(std::u32string_view text);
 
-}  // namespace hydroprint::text
+}  // namespace hydroprint
