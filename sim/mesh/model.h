@@ -29,6 +29,8 @@ struct Material {
   /// True for glTF: the colour of a point is the product, in linear light, of the texture, `colour`
   /// and the vertex colour. False: a texture replaces `colour`, and `colour` the vertex colours.
   bool multiplies = false;
+  /// If `multiplies`: the vertices' colours are one of the factors.
+  bool uses_vertex_colours = false;
   /// True for glTF: the texture's values are sRGB in the file's own orientation, whatever its
   /// profile, gamma and Exif data say (glTF 2.0, section 3.8.3.2).
   bool texture_as_stored = false;

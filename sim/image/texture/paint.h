@@ -30,7 +30,11 @@ class Brush {
 
  private:
   friend class Paint;
+  /// Returns the colour, linear in the position, that a texture is multiplied with.
+  [[nodiscard]] Eigen::Vector3f plain(const Eigen::Vector2d& offset) const;
+
   const Texture* texture_ = nullptr;  ///< nullptr: the brush uses colour_ and colour_per_sample_
+  bool tinted_ = false;               ///< they multiply the texture
   const Chart* chart_ = nullptr;
   Texture::Footprint footprint_;
   Texture::Shortcut shortcut_;
@@ -44,7 +48,8 @@ class Brush {
 /// The desired look of the object: a colour for every point of its surface.
 class Paint {
  public:
-  /// False if the model defines no colours; the film then stays white everywhere.
+  /// False if the film would stay white everywhere: the model defines no colours, or only plain
+  /// white without a texture.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
@@ -57,13 +62,17 @@ class Paint {
 
  private:
   friend class PaintLoader;
-  /// The source of a triangle's colour; several triangles may share one.
+  /// The colour of a triangle as a product in linear light; several triangles may share one.
   struct Ink {
-    enum class Kind { kNone, kColour, kTexture, kVertices };
-    Kind kind = Kind::kNone;
+    bool is_known = false;                             ///< false: nothing defines the colour
     Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear
-    int texture = -1;
+    int texture = -1;                                  ///< -1: none
+    bool of_surface = false;  ///< one factor is the colour of the vertices, or of the triangle
   };
+
+  /// Multiplies the brush's colour with that of the surface.
+  void tint(int model_triangle, const Corners& at,
+            const std::array<Eigen::Vector3d, 3>& barycentric, Brush& brush) const;
 
   bool has_colour_ = false;
   Warnings warnings_;
@@ -73,11 +82,13 @@ class Paint {
   std::vector<Chart> chart_of_triangle_;  ///< empty: the model has no textures
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs_;
   std::vector<Eigen::Vector3i> triangles_;
-  std::vector<Eigen::Vector3f> vertex_colours_;  ///< linear
+  std::vector<Eigen::Vector3f> vertex_colours_;    ///< linear; empty: not used
+  std::vector<Eigen::Vector3f> triangle_colours_;  ///< linear; empty: not used
 };
 
 /// Loads a model's colours: `texture` on its UVs if given, otherwise its materials' textures and
-/// colours, otherwise its vertex colours. Returns the errors of read_image(). Other errors name
+/// colours, otherwise those of its vertices or triangles; for materials that multiply, their
+/// product. Returns the errors of read_image(). Other errors name
 /// file and remedy: kInvalidArgument for a texture on a model without UVs, kNotFound for a
 /// material's missing texture, kOutOfRange for more than kMaxImageArea_px in all textures together.
 [[nodiscard]] Result<Paint> load_paint(const mesh::Model& model,

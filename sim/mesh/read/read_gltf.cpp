@@ -2,57 +2,28 @@
 #include <tiny_gltf.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <exception>
-#include <fstream>
+#include <iterator>
 #include <map>
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "sim/mesh/read/file.h"
 #include "sim/mesh/read/gltf_accessor.h"
 #include "sim/mesh/read/gltf_check.h"
+#include "sim/mesh/read/gltf_entry.h"
+#include "sim/mesh/read/gltf_material.h"
+#include "sim/mesh/read/linear.h"
 #include "sim/mesh/read/readers.h"
-#include "sim/mesh/read/textures.h"
 
 namespace hydroprint::mesh {
 namespace {
 
 constexpr int kMaxDepth = 256;              // maximum depth of nodes
 constexpr std::size_t kMaxNodes = 100'000;  // maximum number of visited nodes
-
-/// Converts to sRGB, because glTF's colours are linear light.
-float to_srgb(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
-}
-
-Wrap wrap_of(int mode) {
-  if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
-  if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::kMirror;
-  return Wrap::kRepeat;
-}
-
-template <class T>
-const T* entry(const std::vector<T>& values, int index) {
-  if (index < 0 || static_cast<std::size_t>(index) >= values.size()) return nullptr;
-  return &values[static_cast<std::size_t>(index)];
-}
-
-std::string unescape(const std::string& uri) {
-  std::string text;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-        std::isxdigit(static_cast<unsigned char>(uri[i + 2]))) {
-      text += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      text += uri[i];
-    }
-  }
-  return text;
-}
 
 Eigen::Affine3d local_transform(const tinygltf::Node& node) {
   Eigen::Affine3d result = Eigen::Affine3d::Identity();
@@ -97,6 +68,7 @@ class GltfImporter {
            fmt::format(
                "{} parts have morph targets, which are not supported: their base shape is used",
                morphing_));
+    warn_of_colours();
     if (skipped_ > 0)
       warn("not_a_surface", fmt::format("{} sets of points or lines were left out", skipped_));
     if (model_.materials.empty()) model_.triangle_material.clear();
@@ -110,6 +82,20 @@ class GltfImporter {
 
   void warn(std::string code, std::string message) {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
+  }
+
+  void warn_of_colours() {
+    if (blended_colours_ > 0)
+      warn(
+          "alpha_over_white",
+          fmt::format("{} vertices are transparent and were blended with white", blended_colours_));
+    if (ignored_alphas_ > 0)
+      warn("vertex_alpha_ignored",
+           fmt::format("the alpha of {} vertices' colours was ignored", ignored_alphas_));
+    if (broken_colours_ > 0)
+      warn("colours_not_numbers",
+           fmt::format("the colours of {} vertices are not numbers: they are white",
+                       broken_colours_));
   }
 
   /// Returns the root nodes: those of the default scene, else of the first scene, else all nodes
@@ -161,12 +147,13 @@ class GltfImporter {
     }
     HP_ASSIGN_OR_RETURN(const auto corners, corner_indices(primitive, mode, place));
     HP_RETURN_IF_ERROR(check_face_count(model_.triangles.size() + corners.size(), model_.path));
+    const auto [colour, material] = colour_of(primitive);
     const auto first = static_cast<int>(model_.vertices.size());
     HP_RETURN_IF_ERROR(add_vertices(primitive, transform, place));
+    HP_RETURN_IF_ERROR(add_vertex_colours(primitive, colour, place));
     const auto count = static_cast<int>(model_.vertices.size()) - first;
-    const int material = material_index(primitive.material);
     const bool mirrored = transform.linear().determinant() < 0;
-    HP_ASSIGN_OR_RETURN(const auto uvs, read_uvs(primitive, place));
+    HP_ASSIGN_OR_RETURN(const auto uvs, read_uvs(primitive, colour, place));
     for (auto c : corners) {
       if (c.minCoeff() < 0 || c.maxCoeff() >= count)
         return bad(place, fmt::format("uses a vertex out of range (the mesh has {})", count));
@@ -235,35 +222,59 @@ class GltfImporter {
                       const std::string& place) {
     const auto accessor = positions(primitive);
     if (!accessor) return bad(place, "its positions lie outside the file");
-    const auto colours = attribute(primitive, "COLOR_0");
-    with_colours_ += colours ? 1 : 0;
     for (std::size_t i = 0; i < accessor->size(); ++i) {
       const auto p = accessor->values(i);
       const Eigen::Vector3d v = transform * Eigen::Vector3d(p[0], p[1], p[2]);
       if (!v.allFinite()) return bad(place, fmt::format("vertex {} is not a finite number", i));
       model_.vertices.push_back(v);
-      const auto c =
-          colours && i < colours->size() ? colours->values(i) : std::array<double, 4>{1, 1, 1, 1};
-      model_.vertex_colours.emplace_back(to_srgb(c[0]), to_srgb(c[1]), to_srgb(c[2]));
+    }
+    return {};
+  }
+
+  /// Adds the colours of the primitive's vertices, which have been added; white if it has none.
+  Status add_vertex_colours(const tinygltf::Primitive& primitive, const GltfColour& colour,
+                            const std::string& place) {
+    const std::size_t first = model_.vertex_colours.size();
+    model_.vertex_colours.resize(model_.vertices.size(), Eigen::Vector3f::Ones());
+    if (!primitive.attributes.contains("COLOR_0")) return {};
+    auto colours = attribute(primitive, "COLOR_0");
+    if (!colours || colours->components() < 3 || colours->size() < model_.vertices.size() - first)
+      return bad(place, "its COLOR_0 lies outside the file or is not a colour");
+    colours->normalise();
+    ++with_colours_;
+    // Without a texture, the blend with white can be done here: it is linear in the colours.
+    const bool blends =
+        colour.material.alpha_mode == AlphaMode::kBlend && colour.material.texture.empty();
+    for (std::size_t i = first; i < model_.vertices.size(); ++i) {
+      const auto read = colours->values(i - first);
+      Eigen::Vector4d c(read[0], read[1], read[2], read[3]);
+      if (!c.allFinite()) {
+        ++broken_colours_;
+        continue;
+      }
+      if (blends) c = c.cwiseProduct(colour.blended_factor);
+      if (c[3] < 1 && blends) ++blended_colours_;
+      if (c[3] < 1 && !blends && colour.material.alpha_mode != AlphaMode::kOpaque)
+        ++ignored_alphas_;
+      const double opacity = blends ? std::clamp(c[3], 0.0, 1.0) : 1;
+      for (int k = 0; k < 3; ++k)
+        model_.vertex_colours[i][k] = srgb_of_linear(c[k] * opacity + 1 - opacity);
     }
     return {};
   }
 
   Result<std::vector<Eigen::Vector2f>> read_uvs(const tinygltf::Primitive& primitive,
+                                                const GltfColour& colour,
                                                 const std::string& place) {
     std::vector<Eigen::Vector2f> result;
-    const auto* material = entry(source_.materials, primitive.material);
-    const int set =
-        material == nullptr ? 0 : material->pbrMetallicRoughness.baseColorTexture.texCoord;
-    const std::string name = fmt::format("TEXCOORD_{}", set);
+    const std::string name = fmt::format("TEXCOORD_{}", colour.uv_set);
     if (!primitive.attributes.contains(name)) return result;
     const auto accessor = attribute(primitive, name);
     if (!accessor || accessor->components() != 2)
       return bad(place, "its texture coordinates lie outside the file");
-    const Eigen::Affine2d transform = texture_transform(material);
     for (std::size_t i = 0; i < accessor->size(); ++i) {
       const auto values = accessor->values(i);
-      const Eigen::Vector2d uv = transform * Eigen::Vector2d(values[0], values[1]);
+      const Eigen::Vector2d uv = colour.uv_transform * Eigen::Vector2d(values[0], values[1]);
       if (!uv.allFinite())
         return bad(place, fmt::format("texture coordinate {} is not a finite number", i));
       result.emplace_back(static_cast<float>(uv.x()), static_cast<float>(1 - uv.y()));  // v up
@@ -271,73 +282,32 @@ class GltfImporter {
     return result;
   }
 
-  /// Returns the transform of KHR_texture_transform: scaling, then rotation, then translation.
-  static Eigen::Affine2d texture_transform(const tinygltf::Material* material) {
-    Eigen::Affine2d result = Eigen::Affine2d::Identity();
-    if (material == nullptr) return result;
-    const auto& extensions = material->pbrMetallicRoughness.baseColorTexture.extensions;
-    const auto at = extensions.find("KHR_texture_transform");
-    if (at == extensions.end()) return result;
-    const auto number = [](const tinygltf::Value& v) { return v.GetNumberAsDouble(); };
-    const auto pair = [&](const char* key, double otherwise) {
-      const auto& value = at->second.Get(key);
-      if (!value.IsArray() || value.ArrayLen() != 2) return Eigen::Vector2d(otherwise, otherwise);
-      return Eigen::Vector2d(number(value.Get(0)), number(value.Get(1)));
-    };
-    const auto& rotation = at->second.Get("rotation");
-    result.translate(pair("offset", 0));
-    if (rotation.IsNumber()) result.rotate(Eigen::Rotation2Dd(-number(rotation)));
-    result.scale(pair("scale", 1));
-    return result;
-  }
-
-  int material_index(int source) {
-    const auto known = material_of_.find(source);
-    if (known != material_of_.end()) return known->second;
-    const int index = static_cast<int>(model_.materials.size());
-    material_of_.emplace(source, index);
-    model_.materials.push_back(make_material(source));
-    return index;
-  }
-
-  [[nodiscard]] Material make_material(int index) const {
-    Material material;
-    const auto* source = entry(source_.materials, index);
-    if (source == nullptr) return material;
-    material.name = source->name;
-    const auto& pbr = source->pbrMetallicRoughness;
-    if (pbr.baseColorFactor.size() >= 3) {
-      material.has_colour = true;
-      for (int k = 0; k < 3; ++k)
-        material.colour[k] = to_srgb(pbr.baseColorFactor[static_cast<std::size_t>(k)]);
+  /// Returns the primitive's source of colour, and its index in the model's materials.
+  std::pair<const GltfColour&, int> colour_of(const tinygltf::Primitive& primitive) {
+    const bool vertex_colours = primitive.attributes.contains("COLOR_0");
+    const auto [known, is_new] = colours_.try_emplace({primitive.material, vertex_colours});
+    auto& [colour, index] = known->second;
+    if (is_new) {
+      colour = gltf_colour(source_, primitive.material, vertex_colours, model_.path);
+      index = static_cast<int>(model_.materials.size());
+      model_.materials.push_back(colour.material);
+      std::ranges::copy(colour.not_understood, std::back_inserter(model_.not_understood));
+      std::ranges::copy(colour.warnings, std::back_inserter(model_.warnings));
     }
-    const auto* texture = entry(source_.textures, pbr.baseColorTexture.index);
-    if (texture != nullptr) set_texture(*texture, material);
-    return material;
-  }
-
-  void set_texture(const tinygltf::Texture& texture, Material& material) const {
-    const auto* image = entry(source_.images, texture.source);
-    if (image == nullptr) return;
-    if (const auto* sampler = entry(source_.samplers, texture.sampler)) {
-      material.wrap_u = wrap_of(sampler->wrapS);
-      material.wrap_v = wrap_of(sampler->wrapT);
-    }
-    if (!image->image.empty()) {
-      material.texture = fmt::format("{}#{}", model_.path.string(), texture.source);
-      material.texture_bytes = image->image;
-    } else if (!image->uri.empty()) {
-      material.texture = resolve_texture(model_.path.parent_path(), unescape(image->uri));
-    }
+    return {colour, index};
   }
 
   const tinygltf::Model& source_;
   Model model_;
-  std::map<int, int> material_of_;
+  /// By the index of the material, and whether the primitive has colours of vertices.
+  std::map<std::pair<int, bool>, std::pair<GltfColour, int>> colours_;
   std::size_t visited_ = 0;
   std::size_t primitives_ = 0;
   std::size_t with_uvs_ = 0;
   std::size_t with_colours_ = 0;
+  std::size_t blended_colours_ = 0;
+  std::size_t ignored_alphas_ = 0;
+  std::size_t broken_colours_ = 0;
   std::size_t skipped_ = 0;
   std::size_t skinned_ = 0;
   std::size_t morphing_ = 0;
