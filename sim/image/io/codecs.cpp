@@ -9,12 +9,15 @@
 #include <cmath>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "sim/base/check.h"
-#include "sim/image/io/colour.h"
 #include "sim/image/io/header.h"
+#include "sim/image/io/orientation.h"
+#include "sim/image/io/pixels.h"
 
 namespace hydroprint::image {
 namespace {
@@ -32,17 +35,8 @@ tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
                                    "). Download or export the file again");
 }
 
-/// How the channels of a file are combined into a texel.
-struct Layout {
-  int channels = 3;
-  int alpha = -1;  ///< index of the alpha channel; -1: none
-  bool premultiplied = false;
-  bool grey = false;
-  bool is_float = false;
-};
-
-Layout layout_of(const ImageSpec& spec) {
-  Layout layout;
+PixelLayout layout_of(const ImageSpec& spec) {
+  PixelLayout layout;
   layout.channels = spec.nchannels;
   layout.alpha = spec.alpha_channel;
   if (layout.alpha < 0 && (spec.nchannels == 2 || spec.nchannels == 4)) {
@@ -54,45 +48,36 @@ Layout layout_of(const ImageSpec& spec) {
   return layout;
 }
 
-/// Returns one texel from values in [0, 1], sRGB-coded unless the file holds floats.
-Texel to_texel(std::array<float, 3> colour, float alpha, const Layout& layout, bool& had_alpha) {
-  const float opacity = alpha > 0 ? std::min(alpha, 1.0F) : 0;
-  had_alpha = had_alpha || opacity < 1;
-  std::array<std::uint16_t, 3> out{};
-  for (int i = 0; i < 3; ++i) {
-    float value = colour[i];
-    if (layout.premultiplied && opacity > 0 && opacity < 1) value /= opacity;
-    value = layout.is_float ? (value > 0 ? std::min(value, 1.0F) : 0) : linear_from_srgb(value);
-    out[i] = static_cast<std::uint16_t>(std::lround((value * opacity + (1 - opacity)) * 65535.0F));
-  }
-  return {out[0], out[1], out[2], 0};
+/// Returns the decoding exponent of a PNG that states one other than sRGB's.
+std::optional<float> gamma_of(const ImageSpec& spec) {
+  const float gamma = spec.get_float_attribute("oiio:Gamma", 0);
+  if (!(gamma > 0.1F && gamma < 10)) return {};
+  if (spec.get_string_attribute("oiio:ColorSpace") == "sRGB") return {};
+  constexpr float kLikeSrgb = 2.2F;  // as the PNG specification says of 45455
+  if (std::abs(gamma - kLikeSrgb) < 0.01F) return {};
+  return gamma;
 }
 
-void convert(const float* from, std::size_t count, const Layout& layout, Texel* to,
-             bool& had_alpha) {
-  for (std::size_t i = 0; i < count; ++i, from += layout.channels) {
-    const float alpha = layout.alpha >= 0 ? from[layout.alpha] : 1;
-    to[i] = layout.grey ? to_texel({from[0], from[0], from[0]}, alpha, layout, had_alpha)
-                        : to_texel({from[0], from[1], from[2]}, alpha, layout, had_alpha);
+/// Finds the meaning of the colour values: by a profile, else by a gamma.
+ColourCoding coding_of(const ImageSpec& spec, const PixelLayout& layout, const std::string& name,
+                       Warnings& warnings) {
+  const auto* profile = spec.find_attribute("ICCProfile");
+  if (profile == nullptr) return {{}, gamma_of(spec)};
+  const auto size = profile->type().size();
+  auto conversion = ProfileToSrgb::create({static_cast<const std::uint8_t*>(profile->data()), size},
+                                          layout.grey ? 1 : 3);
+  if (conversion && !layout.is_float) {
+    if (conversion->is_srgb()) return {};
+    return {std::move(*conversion), {}};
   }
-}
-
-void convert(const std::uint16_t* from, std::size_t count, const Layout& layout, Texel* to,
-             bool& had_alpha) {
-  for (std::size_t i = 0; i < count; ++i, from += layout.channels) {
-    if (layout.alpha >= 0 && from[layout.alpha] != 65535) {
-      std::array<float, 3> colour{};
-      for (int k = 0; k < 3; ++k) {
-        colour[k] = static_cast<float>(from[layout.grey ? 0 : k]) / 65535.0F;
-      }
-      const float alpha = static_cast<float>(from[layout.alpha]) / 65535.0F;
-      to[i] = to_texel(colour, alpha, layout, had_alpha);
-    } else {
-      to[i].r = linear16_from_srgb16(from[0]);
-      to[i].g = layout.grey ? to[i].r : linear16_from_srgb16(from[1]);
-      to[i].b = layout.grey ? to[i].r : linear16_from_srgb16(from[2]);
-    }
-  }
+  warnings.push_back(
+      {"profile_ignored",
+       fmt::format("the colour profile of the image was ignored: {}. Its values were "
+                   "taken as {}",
+                   conversion ? "the image has floats" : conversion.error(),
+                   layout.is_float ? "linear light" : "sRGB"),
+       name});
+  return {};
 }
 
 bool read_rows(ImageInput& input, const ImageSpec& spec, int y0, int y1, TypeDesc type, void* to) {
@@ -102,26 +87,37 @@ bool read_rows(ImageInput& input, const ImageSpec& spec, int y0, int y1, TypeDes
   return input.read_tiles(0, 0, 0, spec.width, y0, y1, 0, 1, 0, spec.nchannels, type, to);
 }
 
+/// Reads all pixels to their turned places.
 template <class Value>
 Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& name,
-                   const Context& context, ReadImage& out) {
-  const Layout layout = layout_of(spec);
+                   const Turned& turned, PixelConverter& converter, const Context& context,
+                   ReadImage& out) {
   const int rows = spec.tile_width ? spec.tile_height : 64;
   const std::size_t row = static_cast<std::size_t>(spec.width) * spec.nchannels;
   if (rows < 1 || row * static_cast<std::size_t>(rows) > (std::size_t{1} << 29)) {
     return corrupt(name, fmt::format("tiles of {} rows", spec.tile_height));
   }
   std::vector<Value> buffer(row * static_cast<std::size_t>(rows));
-  const TypeDesc type = layout.is_float ? TypeDesc::FLOAT : TypeDesc::UINT16;
+  const bool is_float = std::is_same_v<Value, float>;
+  const auto width = static_cast<std::size_t>(spec.width);
+  std::vector<Texel> line(turned.is_identity() ? 0 : width);
   for (int y = 0; y < spec.height; y += rows) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     const int end = std::min(y + rows, spec.height);
-    const bool read = read_rows(input, spec, y, end, type, buffer.data());
+    const bool read = read_rows(input, spec, y, end, is_float ? TypeDesc::FLOAT : TypeDesc::UINT16,
+                                buffer.data());
     if (!read || input.has_error()) return corrupt(name, input.geterror());
-    const std::size_t width = static_cast<std::size_t>(spec.width);
-    convert(buffer.data(), width * static_cast<std::size_t>(end - y), layout,
-            &out.image.texels[width * static_cast<std::size_t>(y)], out.had_alpha);
+    for (int below = y; below < end; ++below) {
+      const Value* from = &buffer[row * static_cast<std::size_t>(below - y)];
+      if (turned.is_identity()) {
+        converter.convert(from, width, &out.image.texels[width * static_cast<std::size_t>(below)]);
+        continue;
+      }
+      converter.convert(from, width, line.data());
+      for (int x = 0; x < spec.width; ++x) out.image.texels[turned.index(x, below)] = line[x];
+    }
   }
+  out.had_alpha = converter.had_alpha();
   return {};
 }
 
@@ -153,18 +149,24 @@ Result<Opened> open(IOProxy& proxy, const std::string& name) {
   return out;
 }
 
-Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context& context) {
+Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context& context,
+                         const Decoding& decoding) {
   HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
   const ImageSpec& spec = opened.spec;
   ReadImage out;
-  out.image.width = spec.width;
-  out.image.height = spec.height;
+  const PixelLayout layout = layout_of(spec);
+  const Turned turned(decoding.as_stored ? 1 : spec.get_int_attribute("Orientation", 1), spec.width,
+                      spec.height);
+  ColourCoding coding;
+  if (!decoding.as_stored) coding = coding_of(spec, layout, name, out.warnings);
+  PixelConverter converter(layout, std::move(coding), decoding);
+  out.image.width = turned.width();
+  out.image.height = turned.height();
   out.image.texels.resize(static_cast<std::size_t>(spec.width) * spec.height);
-  if (spec.format.is_floating_point()) {
-    HP_RETURN_IF_ERROR(read_pixels<float>(*opened.input, spec, name, context, out));
-  } else {
-    HP_RETURN_IF_ERROR(read_pixels<std::uint16_t>(*opened.input, spec, name, context, out));
-  }
+  HP_RETURN_IF_ERROR(
+      layout.is_float
+          ? read_pixels<float>(*opened.input, spec, name, turned, converter, context, out)
+          : read_pixels<std::uint16_t>(*opened.input, spec, name, turned, converter, context, out));
   return out;
 }
 
@@ -232,8 +234,9 @@ auto from_file(const std::filesystem::path& path, Decode decode)
 }
 
 Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context,
-                            const Decoding&) {
-  return from_file(path, [&](IOProxy& proxy) { return decode(proxy, path.string(), context); });
+                            const Decoding& decoding) {
+  return from_file(path,
+                   [&](IOProxy& proxy) { return decode(proxy, path.string(), context, decoding); });
 }
 
 Result<Grey16Image> read_grey16_file(const std::filesystem::path& path, const Context&) {
@@ -241,9 +244,9 @@ Result<Grey16Image> read_grey16_file(const std::filesystem::path& path, const Co
 }
 
 Result<ReadImage> read_bytes(const std::vector<unsigned char>& bytes, const std::string& name,
-                             const Context& context, const Decoding&) {
+                             const Context& context, const Decoding& decoding) {
   OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
-  return safely(name, [&] { return decode(proxy, name, context); });
+  return safely(name, [&] { return decode(proxy, name, context, decoding); });
 }
 
 Result<std::vector<unsigned char>> encode_png_rgba(const std::string& name, int width, int height,
