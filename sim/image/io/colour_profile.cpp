@@ -35,9 +35,11 @@ tl::expected<ProfileToSrgb, std::string> ProfileToSrgb::create(
   const Profile to = owned(cmsCreate_sRGBProfile());
   ProfileToSrgb out;
   out.inputs_ = space == cmsSigGrayData ? 1 : 3;
+  // Not optimised, because the optimised transform of 16-bit values is a table of 33 steps, which
+  // is wrong by up to ten 8-bit codes where colours leave the gamut.
   const cmsHTRANSFORM transform = cmsCreateTransform(
       from.get(), out.inputs_ == 1 ? TYPE_GRAY_16 : TYPE_RGB_16, to.get(), TYPE_RGB_16,
-      INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
+      INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOOPTIMIZE);
   if (transform == nullptr) return tl::unexpected<std::string>("it cannot be used");
   out.transform_ = {transform, cmsDeleteTransform};
 

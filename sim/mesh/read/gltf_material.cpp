@@ -82,8 +82,7 @@ Product base_colour(const tinygltf::Material& source) {
   const auto& factor = at->second.Get("diffuseFactor");
   if (factor.IsArray() && factor.ArrayLen() == 4) {
     out.factor.emplace();
-    for (int k = 0; k < 4; ++k)
-      (*out.factor)[k] = number_or(factor.Get(k), 1);
+    for (int k = 0; k < 4; ++k) (*out.factor)[k] = number_or(factor.Get(k), 1);
   }
   out.texture = use_of(at->second.Get("diffuseTexture"));
   return out;

@@ -53,6 +53,7 @@ class ObjChecker {
     if (keyword == "vt") return check_texture_coordinate(line);
     if (keyword == "f") return check_face(line);
     if (keyword == "mtllib") facts_.libraries.emplace_back(line);
+    if (keyword == "usemtl" && line.empty()) facts_.has_bare_usemtl = true;
     if (keyword == "#MRGB") return read_polypaint(trimmed(line));
     return {};
   }

@@ -16,6 +16,7 @@ struct ObjFacts {
   std::size_t texture_coordinates = 0;
   std::size_t triangles = 0;           ///< after polygons are split
   std::vector<std::string> libraries;  ///< arguments of `mtllib`, one per line
+  bool has_bare_usemtl = false;        ///< a line `usemtl` without a name
   /// Colours of the vertices as written, in any range, NaN where one is not a number: of
   /// `v x y z r g b [a]`, else of ZBrush's `#MRGB` comments. White for vertices without one; empty
   /// if none has one.

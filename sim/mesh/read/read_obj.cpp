@@ -51,6 +51,15 @@ void blank_face_comments(std::string& text) {
   }
 }
 
+/// Adds a blank to lines of `usemtl` alone, which the importer would otherwise ignore.
+void lengthen_bare_usemtl(std::string& text) {
+  constexpr std::string_view kWord = "usemtl";
+  for (auto at = text.find(kWord); at != text.npos; at = text.find(kWord, at + 1)) {
+    const auto end = at + kWord.size();
+    if (end == text.size() || text[end] == '\n' || text[end] == '\r') text.insert(end, 1, ' ');
+  }
+}
+
 /// The materials of the files that a model names, by their names.
 struct Library {
   std::map<std::string, MtlMaterial> by_name;
@@ -315,6 +324,7 @@ Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
   blank_face_comments(bytes);
   HP_ASSIGN_OR_RETURN(ObjFacts facts, check_obj(bytes, path, context));
   HP_RETURN_IF_ERROR(check_face_count(facts.triangles, path));
+  if (facts.has_bare_usemtl) lengthen_bare_usemtl(bytes);
   return ObjImporter(path, std::move(facts)).run(bytes);
 } catch (const std::bad_alloc&) {
   throw;  // not a fault of the file

@@ -75,6 +75,10 @@ inline bool has_warning(const Warnings& warnings, const std::string& code) {
   return false;
 }
 
+inline void expect_near(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  EXPECT_LT((a - b).norm(), 1e-5) << a.transpose() << " instead of " << b.transpose();
+}
+
 /// A tetrahedron in each file format. The corners of its first face are 0, 2, 1.
 inline const std::string kTetrahedronObj =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";

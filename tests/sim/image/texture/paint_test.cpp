@@ -212,6 +212,142 @@ TEST(Paint, MaterialsWithoutTextureGiveTheirColour) {
   EXPECT_EQ(image.at(20, 10)[1], 128);
 }
 
+/// A plate with one material that multiplies, as glTF's do, and a texture of one colour.
+mesh::Model tinted_plate(const TemporaryFolder& folder, const std::array<int, 4>& rgba) {
+  std::vector<std::uint8_t> pixels;
+  for (int i = 0; i < 16; ++i)
+    for (const int value : rgba) pixels.push_back(static_cast<std::uint8_t>(value));
+  EXPECT_TRUE(write_png_rgba(folder / "t.png", 4, 4, pixels));
+  mesh::Model model = plate(-20, -20, 20, 20);
+  model.materials.resize(1);
+  model.materials[0].multiplies = true;
+  model.materials[0].has_colour = true;
+  model.materials[0].texture = folder / "t.png";
+  model.triangle_material = {0, 0};
+  return model;
+}
+
+/// Expects this linear colour in the middle of the plate.
+void expect_printed(const mesh::Model& model, const Eigen::Vector3f& linear) {
+  const auto paint = load_paint(model, {}, {});
+  ASSERT_TRUE(paint) << paint.error().message;
+  const RgbImage image = print(model, *paint, 40, 40, 25.4);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(image.at(20, 12)[k], srgb8_from_linear(linear[k]), 1) << k;
+}
+
+Eigen::Vector3f linear_of(int r, int g, int b) {
+  return linear_from_srgb(
+      Eigen::Vector3f(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)) / 255);
+}
+
+TEST(Paint, MaterialsThatMultiplyGiveTheProductInLinearLight) {
+  const TemporaryFolder folder;
+  mesh::Model model = tinted_plate(folder, {200, 120, 60, 255});
+  model.materials[0].alpha_mode = mesh::AlphaMode::kOpaque;
+  const Eigen::Vector3f texture = linear_of(200, 120, 60), factor = linear_of(188, 255, 99),
+                        vertex = linear_of(255, 150, 220);
+  expect_printed(model, texture);
+  model.materials[0].colour = srgb_from_linear(factor);
+  expect_printed(model, texture.cwiseProduct(factor));
+  model.vertex_colours.assign(4, srgb_from_linear(vertex));
+  expect_printed(model, texture.cwiseProduct(factor));  // not a factor of this material
+  model.materials[0].uses_vertex_colours = true;
+  expect_printed(model, texture.cwiseProduct(factor).cwiseProduct(vertex));
+  model.materials[0].texture.clear();
+  expect_printed(model, factor.cwiseProduct(vertex));
+  model.materials[0].multiplies = false;  // OBJ: a colour replaces those of the vertices
+  expect_printed(model, factor);
+}
+
+TEST(Paint, TheAlphaModeDecidesWhatIsTransparent) {
+  const TemporaryFolder folder;
+  mesh::Model model = tinted_plate(folder, {200, 120, 60, 102});  // alpha 0.4
+  mesh::Material& material = model.materials[0];
+  const Eigen::Vector3f texture = linear_of(200, 120, 60), factor = linear_of(188, 255, 99);
+  const Eigen::Vector3f tinted = texture.cwiseProduct(factor), white = Eigen::Vector3f::Ones();
+  material.colour = srgb_from_linear(factor);
+  material.alpha_mode = mesh::AlphaMode::kOpaque;
+  expect_printed(model, tinted);
+  material.alpha_mode = mesh::AlphaMode::kBlend;
+  expect_printed(model, 0.4F * tinted + 0.6F * white);  // the white is not tinted
+  material.alpha = 0.5F;
+  expect_printed(model, 0.2F * tinted + 0.8F * white);
+  material.alpha_mode = mesh::AlphaMode::kMask;
+  material.alpha_cutoff = 0.15F;
+  expect_printed(model, tinted);
+  material.alpha_cutoff = 0.25F;
+  expect_printed(model, white);
+  material.texture.clear();
+  material.alpha_mode = mesh::AlphaMode::kBlend;
+  expect_printed(model, 0.5F * factor + 0.5F * white);
+}
+
+TEST(Paint, ManyTintsShareOneTexture) {
+  // Each copy of the texture would have 16 million texels, and 200 million is the limit.
+  const TemporaryFolder folder;
+  mesh::Model model = tinted_plate(folder, {255, 255, 255, 255});
+  ASSERT_TRUE(
+      write_png(folder / "t.png", make_image(4096, 4096, [](int, int) { return kWhite; }), 72));
+  model.materials[0].alpha_mode = mesh::AlphaMode::kOpaque;
+  for (int i = 1; i < 40; ++i) {
+    model.materials.push_back(model.materials[0]);
+    model.materials.back().colour = {1, 0.02F * static_cast<float>(i), 0};
+    model.triangles.push_back(model.triangles[0]);
+    model.corner_uvs.push_back(model.corner_uvs[0]);
+    model.triangle_material.push_back(i);
+  }
+  EXPECT_TRUE(load_paint(model, {}, {}));
+}
+
+TEST(Paint, TrianglesMayHaveColours) {
+  mesh::Model model = plate(-20, -20, 20, 20);
+  model.triangle_colours = {{1, 0, 0}, {0, 0, 1}};
+  model.vertex_colours.assign(4, Eigen::Vector3f::Ones());  // as exporters write them besides
+  const auto paint = load_paint(model, {}, {});
+  ASSERT_TRUE(paint);
+  EXPECT_TRUE(paint->has_colour());
+  const RgbImage image = print(model, *paint, 40, 40, 50.8);
+  EXPECT_EQ(image.at(60, 70)[0], 255);
+  EXPECT_EQ(image.at(60, 70)[2], 0);
+  EXPECT_EQ(image.at(20, 10)[0], 0);
+  EXPECT_EQ(image.at(20, 10)[2], 255);
+}
+
+TEST(Paint, PlainWhiteIsNotAColour) {
+  mesh::Model model = plate(-20, -20, 20, 20);
+  const auto has_colour = [&] { return load_paint(model, {}, {})->has_colour(); };
+  EXPECT_FALSE(has_colour());
+  model.vertex_colours.assign(4, Eigen::Vector3f::Ones());
+  EXPECT_FALSE(has_colour());
+  model.materials.resize(1);
+  model.materials[0].has_colour = true;
+  model.triangle_material = {0, 0};
+  EXPECT_FALSE(has_colour());
+  model.vertex_colours[3] = {1, 1, 0};
+  EXPECT_TRUE(has_colour());
+  model.vertex_colours.clear();
+  model.materials[0].colour = {0, 0, 0};
+  EXPECT_TRUE(has_colour());
+}
+
+TEST(Paint, TheShareWithoutColourIsSaid) {
+  mesh::Model model = plate(-20, -20, 20, 20);
+  model.materials.resize(2);
+  model.materials[0].has_colour = true;
+  model.materials[0].colour = {1, 0, 0};
+  model.materials[1].name = "handle";
+  model.not_understood = {"material \"handle\": ACME_paint"};
+  model.triangle_material = {0, 1};
+  const auto paint = load_paint(model, {}, {});
+  ASSERT_TRUE(paint);
+  EXPECT_TRUE(paint->has_colour());
+  ASSERT_TRUE(has_warning(*paint, "colour_missing_in_part"));
+  const std::string& message = paint->warnings().back().message;
+  for (const char* part : {"1 triangles", "50", "\"handle\"", "ACME_paint"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
 TEST(Paint, AnUnusedMaterialsTextureNeedNotExist) {
   mesh::Model model = plate(-20, -20, 20, 20);
   model.materials.resize(2);

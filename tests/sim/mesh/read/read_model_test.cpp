@@ -312,6 +312,3 @@ TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
 
 }  // namespace
 }  // namespace hydroprint::mesh
-
-/// When assimp refuses a PLY file, it leaks its parser (a kilobyte).
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
