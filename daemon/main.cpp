@@ -18,7 +18,7 @@
 #include "daemon/daemon.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/systemd_notify.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint {
 

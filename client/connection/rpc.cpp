@@ -10,7 +10,7 @@
 #include "client/connection/tls_probe.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::client {
 namespace {

@@ -10,7 +10,7 @@
 #include "daemon/admin/offline_accounts.h"
 #include "daemon/admin/restore.h"
 #include "sim/base/number_text.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::admin {
 namespace {

@@ -10,8 +10,8 @@
 #include <cerrno>
 #include <vector>
 
-#include "sim/base/one_line.h"
 #include "sim/base/sha256.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::admin {
 namespace {

@@ -14,8 +14,8 @@
 #include "daemon/store/database/schema.h"
 #include "daemon/store/state_lock.h"
 #include "sim/base/checked_json.h"
-#include "sim/base/one_line.h"
 #include "sim/base/sha256.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::admin {
 namespace {

@@ -13,7 +13,7 @@
 #include "daemon/rpc/grpc_status.h"
 #include "google/api/annotations.pb.h"
 #include "hydroprint/v1/access.pb.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::daemon {
 namespace {

@@ -9,7 +9,7 @@
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
 #include "sim/base/checked_json.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::daemon {
 namespace {

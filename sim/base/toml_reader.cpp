@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "sim/base/input_file.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint {
 namespace {

@@ -1,5 +1,7 @@
 #include "sim/base/utf8.h"
 
+#include <algorithm>
+
 namespace hydroprint {
 namespace {
 
@@ -74,6 +76,12 @@ std::string encode_utf8(std::u32string_view text) {
     }
   }
   return out;
+}
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return encode_utf8(decode_utf8(text));
 }
 
 }  // namespace hydroprint

@@ -12,13 +12,11 @@
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
 #include "sim/mesh/subdivide.h"
+#include "sim/mesh/units.h"
 #include "sim/mesh/weld.h"
 
 namespace hydroprint::mesh {
 namespace {
-
-constexpr double kSmallMm = 5;
-constexpr double kLargeMm = 1000;
 
 void warn(Surface& surface, const Model& model, std::string code, std::string message) {
   surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
@@ -73,11 +71,14 @@ void warn_about_size(const Model& model, Surface& surface) {
   for (const auto& t : surface.triangles)
     for (int k = 0; k < 3; ++k) box.extend(surface.points[static_cast<std::size_t>(t[k])]);
   const double largest_mm = box.sizes().maxCoeff();
-  if (largest_mm >= kSmallMm && largest_mm <= kLargeMm) return;
+  if (!is_odd_size(largest_mm)) return;
+  const auto unit = likely_unit(largest_mm / model.scale, model.path.extension().string());
   warn(surface, model, "small_or_large_object",
-       fmt::format("the largest side is {} mm: if the file is in {}", three_digits(largest_mm),
-                   largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
-                                         : "micrometres, give --scale 0.001"));
+       fmt::format("the largest side is {} mm: {}", three_digits(largest_mm),
+                   unit ? fmt::format("if the file is in {}, give --scale {}, and it is {} mm",
+                                      unit->name, shortest_text(unit->mm),
+                                      three_digits(largest_mm / model.scale * unit->mm))
+                        : std::string("check --scale, the millimetres per unit of the model")));
 }
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {

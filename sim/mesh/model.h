@@ -43,6 +43,7 @@ struct Material {
 /// Invariants: indices in range, every coordinate finite, at least one triangle with an area.
 struct Model {
   std::filesystem::path path;
+  double scale = 1;                                        ///< millimetres per unit of the file
   std::vector<Eigen::Vector3d> vertices;                   ///< in the file's order, times scale
   std::vector<Eigen::Vector3i> triangles;                  ///< polygons split; none with zero area
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  ///< per triangle, v up; empty: none

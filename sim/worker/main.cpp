@@ -12,10 +12,10 @@
 #include <string>
 #include <string_view>
 
-#include "sim/base/one_line.h"
 #include "sim/base/process/error_output.h"
 #include "sim/base/process/quiet_stderr.h"
 #include "sim/base/process/termination.h"
+#include "sim/base/utf8.h"
 #include "sim/worker/command_line.h"
 #include "sim/worker/common/fields.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::cli {
 namespace {

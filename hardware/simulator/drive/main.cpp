@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hardware/simulator/drive/virtual_rig.h"
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::simulated_drive {
 namespace {

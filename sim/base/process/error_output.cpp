@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::worker {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace hydroprint::mesh {
@@ -54,6 +55,11 @@ void bring_to_unit(std::vector<Eigen::Vector3f>& colours, std::string_view what,
   if (clamped)
     warn("colours_clamped",
          fmt::format("some colours of the {} are out of range and were limited to it", what));
+}
+
+float srgb_of_linear(double linear) {
+  const double c = std::clamp(linear, 0.0, 1.0);
+  return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
 }
 
 }  // namespace hydroprint::mesh

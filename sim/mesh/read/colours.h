@@ -17,4 +17,8 @@ namespace hydroprint::mesh {
 void bring_to_unit(std::vector<Eigen::Vector3f>& colours, std::string_view what,
                    const std::filesystem::path& path, Warnings& warnings);
 
+/// Codes linear light as sRGB (IEC 61966-2-1), limited to [0, 1]. glTF's factors and vertex colours
+/// are linear.
+[[nodiscard]] float srgb_of_linear(double linear);
+
 }  // namespace hydroprint::mesh

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 #include "sim/mesh/read/read_model.h"
 
 namespace hydroprint::mesh {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "sim/mesh/read/gltf_entry.h"
-
 namespace hydroprint::mesh {
 namespace {
 

@@ -4,12 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace tinygltf {
 class Model;
 }
 
 namespace hydroprint::mesh {
+
+/// Returns the entry of a glTF array; nullptr if the file has none with this index.
+template <class T>
+const T* entry(const std::vector<T>& values, int index) {
+  if (index < 0 || static_cast<std::size_t>(index) >= values.size()) return nullptr;
+  return &values[static_cast<std::size_t>(index)];
+}
 
 /// Elements in a buffer, all of which lie within it.
 struct GltfElements {

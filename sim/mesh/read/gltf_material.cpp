@@ -8,9 +8,9 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/mesh/read/gltf_entry.h"
-#include "sim/mesh/read/linear.h"
-#include "sim/mesh/read/textures.h"
+#include "sim/mesh/read/colours.h"
+#include "sim/mesh/read/gltf_accessor.h"
+#include "sim/mesh/read/names.h"
 
 namespace hydroprint::mesh {
 namespace {

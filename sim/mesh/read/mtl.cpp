@@ -6,7 +6,7 @@
 #include <array>
 #include <set>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 #include "sim/mesh/read/colours.h"
 #include "sim/mesh/read/file.h"
 #include "sim/mesh/read/mtl_map.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "sim/base/one_line.h"
+#include "sim/base/utf8.h"
 #include "sim/mesh/read/numbers.h"
 
 namespace hydroprint::mesh {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <system_error>
 
-#include "sim/base/one_line.h"
 #include "sim/base/utf8.h"
 
 namespace hydroprint::mesh {
@@ -50,6 +49,19 @@ std::string name_key(std::string_view name) {
   const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owned(folded, std::free);
   if (size < 0) return text;
   return {reinterpret_cast<const char*>(folded), static_cast<std::size_t>(size)};
+}
+
+fs::path resolve_texture(const fs::path& folder, std::string name) {
+  const auto begin = name.find_first_not_of(" \t\"");
+  const auto end = name.find_last_not_of(" \t\r\"");
+  if (begin == name.npos) return {};
+  name = name.substr(begin, end - begin + 1);
+  const auto as_named = folder / name;
+  std::replace(name.begin(), name.end(), '\\', '/');
+  std::error_code error;
+  for (const auto& path : {as_named, folder / name, folder / fs::path(name).filename()})
+    if (fs::is_regular_file(path, error)) return path;
+  return as_named;
 }
 
 std::optional<fs::path> similar_file(const fs::path& missing, const fs::path& folder) {

@@ -13,6 +13,12 @@ namespace hydroprint::mesh {
 /// form (NFC, NFD). Names that are not UTF-8 are taken as Latin-1, as old exporters write them.
 [[nodiscard]] std::string name_key(std::string_view name);
 
+/// Finds the path of a texture named by a model in `folder`. Candidates are the name itself, the
+/// name with slashes for backslashes, and its bare file name in the model's folder. Returns the
+/// first that exists, else the name itself.
+[[nodiscard]] std::filesystem::path resolve_texture(const std::filesystem::path& folder,
+                                                    std::string name);
+
 /// Finds a file whose name differs from that of a missing one only as name_key() allows: in the
 /// missing file's own folder, else in the model's folder.
 /// @return nullopt if there is none, or more than one

@@ -11,12 +11,11 @@
 #include <optional>
 #include <utility>
 
+#include "sim/mesh/read/colours.h"
 #include "sim/mesh/read/file.h"
 #include "sim/mesh/read/gltf_accessor.h"
 #include "sim/mesh/read/gltf_check.h"
-#include "sim/mesh/read/gltf_entry.h"
 #include "sim/mesh/read/gltf_material.h"
-#include "sim/mesh/read/linear.h"
 #include "sim/mesh/read/readers.h"
 
 namespace hydroprint::mesh {

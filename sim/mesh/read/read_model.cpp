@@ -178,6 +178,7 @@ Result<Model> read_model(const std::filesystem::path& path, double scale, const 
   context.progress("reading", 0.8);
   HP_RETURN_IF_ERROR(check_face_count(model.triangles.size(), path));
   HP_RETURN_IF_ERROR(check_indices(model));
+  model.scale = scale;
   HP_RETURN_IF_ERROR(scale_vertices(model, scale));
   HP_RETURN_IF_ERROR(check_place(model));
   HP_RETURN_IF_ERROR(drop_degenerate(model));

@@ -16,7 +16,6 @@
 #include "sim/mesh/read/numbers.h"
 #include "sim/mesh/read/obj_check.h"
 #include "sim/mesh/read/readers.h"
-#include "sim/mesh/read/textures.h"
 #include "sim/mesh/read/triangulate.h"
 
 namespace hydroprint::mesh {

@@ -10,10 +10,10 @@
 
 #include "sim/mesh/read/colours.h"
 #include "sim/mesh/read/file.h"
+#include "sim/mesh/read/names.h"
 #include "sim/mesh/read/numbers.h"
 #include "sim/mesh/read/ply_body.h"
 #include "sim/mesh/read/readers.h"
-#include "sim/mesh/read/textures.h"
 #include "sim/mesh/read/triangulate.h"
 
 namespace hydroprint::mesh {

@@ -1,5 +1,5 @@
-// The importer's code is compiled here with hidden visibility instead of being linked. libdraco, a
-// dependency of assimp, exports another version of the same symbols. With linking, the order of a
-// program's libraries would decide which version is called.
+// The importer's code is compiled here with hidden visibility instead of being linked. libdraco,
+// which other libraries bring along, exports another version of the same symbols. With linking, the
+// order of a program's libraries would decide which version is called.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

@@ -112,7 +112,8 @@ TEST_F(FullDisk, RealJobFailsIfItsArtifactsDoNotFit) {
   real.worker.clear();
   start(real);
   const std::string mesh =
-      "v 10 10 10\nv 10 -10 -10\nv -10 10 -10\nv -10 -10 10\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n";
+      "v 10 10 10 1 0 0\nv 10 -10 -10\nv -10 10 -10\nv -10 -10 10\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 "
+      "4 3\n";
   auto request = simulate_request(client->upload(mesh), "tetrahedron.obj");
   request.mutable_job()->mutable_simulate()->set_film("circle:30");
   request.mutable_job()->mutable_simulate()->set_depth_mm(3);

@@ -212,7 +212,8 @@ std::string ball_obj() {
     for (int j = 0; j < kSectors; ++j) {
       const double polar = M_PI * i / kRings, turn = 2 * M_PI * j / kSectors;
       obj << "v " << 20 * std::sin(polar) * std::cos(turn) << ' '
-          << 20 * std::sin(polar) * std::sin(turn) << ' ' << 20 * std::cos(polar) << '\n';
+          << 20 * std::sin(polar) * std::sin(turn) << ' ' << 20 * std::cos(polar)
+          << " 0.8 0.3 0.1\n";
     }
   }
   const auto vertex = [](int i, int j) { return i * kSectors + j % kSectors + 1; };

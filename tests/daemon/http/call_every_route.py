@@ -18,7 +18,8 @@ import programs  # noqa: E402
 
 PATIENCE_S = 120
 PASSWORD = "a long enough one"
-TETRAHEDRON = b"v 10 10 10\nv 10 -10 -10\nv -10 10 -10\nv -10 -10 10\nf 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n"
+TETRAHEDRON = (b"v 10 10 10 1 0 0\nv 10 -10 -10 0 1 0\nv -10 10 -10 0 0 1\nv -10 -10 10 1 1 0\n"
+               b"f 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n")
 
 
 def require(holds, *what):

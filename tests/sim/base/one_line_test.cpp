@@ -1,6 +1,6 @@
-#include "sim/base/one_line.h"
-
 #include <gtest/gtest.h>
+
+#include "sim/base/utf8.h"
 
 namespace hydroprint {
 namespace {

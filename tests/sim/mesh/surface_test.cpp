@@ -289,6 +289,28 @@ TEST(MakeSurface, ProbablyWrongUnitsAreReported) {
   EXPECT_FALSE(has_warning(made(box({0, 0, 0}, {100, 10, 10})), "small_or_large_object"));
 }
 
+TEST(MakeSurface, TheLikelyUnitIsNamedWithItsFactor) {
+  const auto message = [](double side, double scale, const char* path) {
+    Model model = box({0, 0, 0}, {side, side / 2, side / 2});
+    model.path = path;
+    model.scale = scale;
+    const auto surface = make_surface(model, side, {});
+    for (const Warning& w : surface->warnings)
+      if (w.code == "small_or_large_object") return w.message;
+    return std::string();
+  };
+  EXPECT_NE(message(0.25, 1, "a.glb").find("metres, give --scale 1000, and it is 250 mm"),
+            std::string::npos);
+  EXPECT_NE(message(0.25, 1, "a.obj").find("metres, give --scale 1000"), std::string::npos);
+  EXPECT_NE(message(4, 1, "a.stl").find("inches, give --scale 25.4, and it is 102 mm"),
+            std::string::npos);
+  EXPECT_NE(message(80'000, 1, "a.stl").find("micrometres, give --scale 0.001"), std::string::npos);
+  EXPECT_NE(message(2000, 1000, "a.stl").find("inches, give --scale 25.4, and it is 50.8 mm"),
+            std::string::npos);
+  EXPECT_NE(message(1e-4, 1, "a.stl").find("check --scale"), std::string::npos);
+  EXPECT_EQ(message(80, 1, "a.stl"), "");
+}
+
 TEST(MakeSurface, TooManyTrianglesAreRefusedWithTheRemedy) {
   const auto surface = make_surface(box({0, 0, 0}, {1e6, 1e6, 1e6}), kMaxEdgeMm, {});
   ASSERT_FALSE(surface);

@@ -82,6 +82,7 @@ TEST(Warnings, FilmWrinkledComesWithAPicture) {
   }
   SimulateOptions options;
   options.mesh = folder.write("sphere.obj", obj.str());
+  options.needs_colour = false;
   options.dpi = 50;
   for (const double theta_deg : {95.0, 118.0}) {
     options.dip = to_angle(theta_deg);

@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                            0.94}),
     name_of);
 
-TEST(WholeJob, AModelWithoutColourGivesAWhiteFilm) {
+TEST(WholeJob, AModelWithoutColourIsRefusedUnlessItsFilmMayBeBlank) {
   const fs::path cat = kModels / "cat/cat-low-resolution.obj";
   if (!fs::exists(cat)) GTEST_SKIP() << cat << " does not exist";
   SimulateOptions options;
@@ -164,6 +164,12 @@ TEST(WholeJob, AModelWithoutColourGivesAWhiteFilm) {
   options.dpi = 50;
   options.dip.outline = film::parse_outline("A4").value();
   options.dip.depth_mm = 5;
+  const auto refused = simulate(options, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
+  EXPECT_EQ(refused.error().message.find(cat.string()), 0U) << refused.error().message;
+  EXPECT_NE(refused.error().message.find("no colour"), std::string::npos);
+  options.needs_colour = false;
   const auto simulation = simulate(options, {});
   ASSERT_TRUE(simulation) << simulation.error().message;
   for (const std::uint8_t value : simulation->images->film.rgb) ASSERT_EQ(value, 255);

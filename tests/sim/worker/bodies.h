@@ -9,7 +9,8 @@ namespace hydroprint::worker {
 
 /// A closed sphere with texture coordinates, as an OBJ file: `rings` bands, each with twice as many
 /// faces as there are bands.
-inline std::string sphere_obj(double radius_mm, int rings) {
+/// @param colour  red, green and blue of each vertex: "0.2 0.6 0.4"; empty: none
+inline std::string sphere_obj(double radius_mm, int rings, const std::string& colour = "") {
   std::ostringstream vertices, uvs, faces;
   const int around = 2 * rings;
   for (int i = 0; i <= rings; ++i) {
@@ -18,7 +19,7 @@ inline std::string sphere_obj(double radius_mm, int rings) {
       const double turn_rad = 2 * std::numbers::pi * (j % around) / around;
       const double r = i == 0 || i == rings ? 0 : radius_mm * std::sin(polar_rad);
       vertices << "v " << r * std::cos(turn_rad) << ' ' << r * std::sin(turn_rad) << ' '
-               << -radius_mm * std::cos(polar_rad) << '\n';
+               << -radius_mm * std::cos(polar_rad) << ' ' << colour << '\n';
       uvs << "vt " << 1.0 * j / around << ' ' << 1.0 * i / rings << '\n';
     }
   }

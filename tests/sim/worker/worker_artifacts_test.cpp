@@ -75,6 +75,32 @@ TEST_F(Worker, AnEmbeddedPictureIsPrintedAndIsNotASeparateInput) {
   })) << "the film image must have the colours of the embedded texture";
 }
 
+TEST_F(Worker, WithoutColourTheMapAndTheInkOfAnImageAreComputed) {
+  folder.write("bare.obj", sphere_obj(12, 12));
+  for (const Arguments& more :
+       {Arguments{"--artifacts", "map"}, Arguments{"--ink-image", path("texture.png")}}) {
+    Arguments all = simulate({"--mesh", path("bare.obj"), "--depth-mm", "4"}, false);
+    all.insert(all.end(), more.begin(), more.end());
+    const Ended ended = testing::run(all);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+  }
+}
+
+TEST_F(Worker, PartsWithoutColourAreAWarningWithTheirShare) {
+  folder.write("parts.mtl", "newmtl red\nKd 1 0 0\n");
+  const std::string sphere = sphere_obj(12, 12);
+  const auto faces = sphere.find("f ");
+  const auto middle = sphere.find("\nf ", (faces + sphere.size()) / 2) + 1;
+  folder.write("parts.obj", "mtllib parts.mtl\n" + sphere.substr(0, faces) + "usemtl red\n" +
+                                sphere.substr(faces, middle - faces) + "usemtl\n" +
+                                sphere.substr(middle));
+  const Ended ended =
+      testing::run(simulate({"--mesh", path("parts.obj"), "--depth-mm", "4"}, false));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("of the surface, have no colour at all"), std::string::npos)
+      << ended.err;
+}
+
 TEST_F(Worker, MapOnlyWritesTheMapAndTheReport) {
   const Ended ended = testing::run(simulate({"--artifacts", "map"}));
   ASSERT_EQ(ended.status, 0) << ended.err;

@@ -155,5 +155,33 @@ TEST_F(Worker, ATextureNeedsTextureCoordinates) {
                  {"plain.obj"});
 }
 
+/// A square in the plane z = 0, whose halves have the materials a and b.
+std::string square_obj(const std::string& start) {
+  return start + "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n";
+}
+
+TEST_F(Worker, AModelWithoutColourIsRefusedWithWhatWasFound) {
+  folder.write("bare.obj",
+               "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  expect_refusal(3, simulate({"--mesh", path("bare.obj")}, false),
+                 {"bare.obj", "no colour", "texture coordinates"});
+  folder.write("odd.mtl", "newmtl a\nKd spectral steel.rfl\nnewmtl b\nKe 1 0 0\n");
+  folder.write("odd.obj", square_obj("mtllib odd.mtl\n"));
+  expect_refusal(
+      3, simulate({"--mesh", path("odd.obj")}, false),
+      {"odd.obj", "not understood", "material \"a\": Kd spectral", "material \"b\": ke"});
+  folder.write("white.mtl", "newmtl a\nKd 1 1 1\nnewmtl b\nKd 1 1 1\n");
+  folder.write("white.obj", square_obj("mtllib white.mtl\n"));
+  expect_refusal(3, simulate({"--mesh", path("white.obj")}, false), {"white.obj", "no colour"});
+}
+
+TEST_F(Worker, ANameThatIsNotUtf8GivesAMessageThatIs) {
+  folder.write("latin.mtl", "newmtl a\nmap_Kd Gr\xfcn\x1b[1m.png\nnewmtl b\nKd 1 0 0\n");
+  folder.write("latin.obj",
+               "mtllib latin.mtl\nv 0 0 0\nv 20 0 0\nv 0 20 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  expect_refusal(3, simulate({"--mesh", path("latin.obj")}, false),
+                 {"latin.obj", "Gr\uFFFDn [1m.png: no such file"});
+}
+
 }  // namespace
 }  // namespace hydroprint::worker

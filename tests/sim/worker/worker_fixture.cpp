@@ -24,7 +24,7 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
 }
 
 void Worker::SetUp() {
-  folder.write("sphere.obj", sphere_obj(12, 12));
+  folder.write("sphere.obj", sphere_obj(12, 12, "0.2 0.6 0.4"));
   image::RgbImage texture{64, 32, std::vector<std::uint8_t>(3 * 64 * 32)};
   for (int y = 0; y < texture.height; ++y) {
     for (int x = 0; x < texture.width; ++x) {

@@ -117,7 +117,7 @@ TEST_F(LongRun, KilledLeavesNoFolderOfThatName) {
 
 TEST_F(Worker, OutOfMemoryIsAnOrdinaryErrorWithAdviceForTheVerb) {
   if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
-  folder.write("big.obj", sphere_obj(60, 700));
+  folder.write("big.obj", sphere_obj(60, 700, "0.2 0.6 0.4"));
   ProcessOptions options;
   options.limits = {{RLIMIT_AS, rlim_t{600} << 20}};
   const auto before = names_in(folder.path());
