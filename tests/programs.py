@@ -9,8 +9,7 @@ import typing
 
 
 def start(command, ready):
-    """Starts a program and waits for an output line that matches `ready`. Returns the process, whose `said` has the
-    lines until then, and the match."""
+    """Starts a program and waits for an output line that matches `ready`. Returns the process and the match."""
     child = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              text=True)
     said = []
@@ -18,7 +17,6 @@ def start(command, ready):
         said.append(line)
         found = re.search(ready, line)
         if found:
-            child.said = said
             # Reads further output, so that it cannot fill the pipe.
             threading.Thread(target=lambda: [None for _ in child.stdout], daemon=True).start()
             return child, found

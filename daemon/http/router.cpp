@@ -56,6 +56,35 @@ bool comes_from_elsewhere(const Head& head, bool is_secure) {
          !same_name(origin->substr(scheme + 3), head.fields.find("Host").value_or(""));
 }
 
+constexpr const char* kProxyRemedy =
+    "A reverse proxy must pass on the header Host of the browser (nginx: proxy_set_header Host "
+    "$http_host), and server.host_names must contain its name";
+
+// Returns a header's value for an error message.
+std::string shown(const Head& head, std::string_view name) {
+  return fmt::format("{}: {}", name, rest::plain(head.fields.find(name).value_or("missing")));
+}
+
+Error unknown_host(const Head& head) {
+  return {
+      Code::kPermissionDenied,
+      fmt::format("unknown host name ({}); use a name of the server's certificate (or 127.0.0.1 "
+                  "on the server itself), or add this name to server.host_names. {}",
+                  shown(head, "Host"), kProxyRemedy),
+      "HOST_UNKNOWN",
+      {}};
+}
+
+Error foreign_origin(const Head& head) {
+  const char* page = head.fields.find("Origin") ? "Origin" : "Sec-Fetch-Site";
+  return {Code::kPermissionDenied,
+          fmt::format("the request comes from a page of another site ({}; {}); only this server's "
+                      "own pages may send it. {}",
+                      shown(head, page), shown(head, "Host"), kProxyRemedy),
+          "ORIGIN_FORBIDDEN",
+          {}};
+}
+
 // Returns an error if the end of the body is unknown. Calls that stop motion are exempt, because
 // they are executed from the head of the request alone; their connection is closed afterwards.
 std::optional<Response> refused_framing(const ServerContext& server, const Head& head) {
@@ -79,21 +108,10 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
                     {}});
   }
   if (hosts == 1 && !is_ours(server.options, *head.fields.find("Host"))) {
-    return refusal(
-        {Code::kPermissionDenied,
-         fmt::format("unknown host name \"{}\"; use a name from the server's certificate (or "
-                     "127.0.0.1 on the server itself), or add this name to server.host_names",
-                     rest::plain(*head.fields.find("Host"))),
-         "HOST_UNKNOWN",
-         {}},
-        421);
+    return refusal(unknown_host(head), 421);
   }
   if (!is_safe(head.method) && comes_from_elsewhere(head, is_secure)) {
-    return refusal(
-        {Code::kPermissionDenied,
-         "the request comes from a page of another site; only this server's own pages may send it",
-         "ORIGIN_FORBIDDEN",
-         {}});
+    return refusal(foreign_origin(head));
   }
   if (const Status good = check_csrf(head); !good) return refusal(good.error());
   return {};

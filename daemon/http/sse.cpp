@@ -14,6 +14,8 @@ constexpr milliseconds kEndPatience{5000};  // time for a cancelled call to end
 Response event_stream() {
   Response response;
   response.fields.set("Content-Type", "text/event-stream");
+  // Reverse proxies such as nginx collect a response before they pass it on, unless they see this.
+  response.fields.set("X-Accel-Buffering", "no");
   return response;
 }
 

@@ -1,5 +1,6 @@
 #include "daemon/http/static_files.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -19,8 +20,8 @@ constexpr const char* kNoClient =
     "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Hydroprint</title>\n"
     "<h1>Hydroprint</h1>\n<p>The daemon is running, but its web client was not found. Build it "
     "with <code>deploy/build-web</code> or set its folder in <code>server.web_dir</code>, and "
-    "restart the daemon.</p>\n<p>The API is at <a href=\"/openapi.json\">"
-    "/openapi.json</a>.</p>\n</html>\n";
+    "restart the daemon.</p>\n<p>The API is at <a href=\"openapi.json\">"
+    "openapi.json</a>.</p>\n</html>\n";
 
 std::string type_of(const fs::path& path) {
   static constexpr std::array<std::pair<std::string_view, const char*>, 17> kTypes{{
@@ -69,6 +70,15 @@ bool accepts(const Head& head, std::string_view coding) {
     return weight.find_first_of("123456789") != std::string_view::npos || weight.empty();
   }
   return false;
+}
+
+// Returns a relative URL from a path to the root: "../" for "/jobs/7"; empty for "/jobs".
+std::string url_of_root(std::string_view path) {
+  std::string out;
+  for (auto slashes = std::count(path.begin(), path.end(), '/'); slashes > 1; --slashes) {
+    out += "../";
+  }
+  return out;
 }
 
 }  // namespace
@@ -121,6 +131,13 @@ Response StaticFiles::answer(const Head& head) const {
   const File* file = path.starts_with('/') ? find(path) : nullptr;
   if (file == nullptr) {
     response.status = 404;
+    return response;
+  }
+  // The page refers to its files by relative URLs, which are wrong in a folder. The redirect is
+  // relative too, because a reverse proxy may serve the page in a folder of its own.
+  if (const std::string root = url_of_root(path); !root.empty() && !files_.contains(path)) {
+    response.status = 302;
+    response.fields.set("Location", root);
     return response;
   }
   const Variant* chosen = &file->plain;

@@ -1,6 +1,7 @@
 /** Starts Debian's Chromium and opens browser contexts for users in it. */
 import { fileURLToPath } from 'node:url';
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import { kLanHost } from './daemon';
 
 export const launch = (): Promise<Browser> =>
   chromium.launch({
@@ -11,6 +12,8 @@ export const launch = (): Promise<Browser> =>
       '--use-angle=swiftshader',
       '--enable-unsafe-swiftshader',
       '--disable-quic',
+      // A name of the local network, whose pages lack what browsers offer only over TLS and on this machine.
+      `--host-resolver-rules=MAP ${kLanHost} 127.0.0.1`,
       '--no-first-run',
       '--disable-background-networking',
       '--disable-component-update',

@@ -10,6 +10,9 @@ import { fileURLToPath } from 'node:url';
 export const root = resolve(fileURLToPath(new URL('.', import.meta.url)), '../..');
 export const bin = join(root, 'build/release/bin');
 
+/** A name under which the daemon answers, besides its address. */
+export const kLanHost = 'rig.lan';
+
 const kWater_mm = 240; // axis position at which the gripper is at the water level
 
 /** Starts a program and waits for its ready line. `ready` holds its values by key, such as "http=127.0.0.1:8080". */
@@ -119,7 +122,7 @@ export class Daemon {
     this.rigAddress = ready.get('tcp')!;
     writeFileSync(
       join(this.folder, 'hydroprintd.toml'),
-      `[server]\nweb_dir = "${join(root, 'build/web')}"\n` +
+      `[server]\nweb_dir = "${join(root, 'build/web')}"\nhost_names = "${kLanHost}"\n` +
         `[camera]\ndevice = "hydroprint:${this.control}"\npatience_s = 60\n` +
         `layout = "${join(root, 'deploy/rig_layout.toml.example')}"\ngripper_water_mm = ${kWater_mm}.0\n`,
     );

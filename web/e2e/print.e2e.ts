@@ -3,12 +3,13 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
-import { addPeople, come } from './accounts';
-import { open } from './browser';
+import { addPeople, asAdmin, come, signIn } from './accounts';
+import { open, visit } from './browser';
 import { look } from './checks';
-import { bin } from './daemon';
+import { bin, kLanHost } from './daemon';
 import { ballGlb, makeBall } from './models';
 import { rareTest, usePlace } from './place';
+import { startProxy } from './proxy';
 
 const there = usePlace(({ daemon }) => addPeople(daemon.address));
 
@@ -22,6 +23,14 @@ test('a maker drops a model, turns it and submits; the film image equals the wor
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await page.locator('.stage canvas').waitFor();
 
+  // The ball's radius is 1, which is too small in mm. One click takes the likely unit.
+  await page.getByText('Size: 2 × 2 × 2 mm').waitFor();
+  await look(person, 'new-print-small');
+  await page.getByRole('button', { name: 'Use inch' }).click();
+  await page.getByText('Size: 50.8 × 50.8 × 50.8 mm').waitFor();
+  expect(await page.getByRole('radio', { name: 'inch' }).isChecked()).toBe(true);
+  expect(await page.getByLabel('One unit is').inputValue()).toBe('25.4');
+  expect(await page.getByText('smaller than 5 mm').count()).toBe(0);
   await page.getByLabel('Longest side').fill('30');
   await page.getByRole('button', { name: '+90° x' }).click();
   await page.getByLabel('Rotation about z').fill('30');
@@ -99,6 +108,54 @@ function runWorker(
   return join(result, 'film.png');
 }
 
+test('a maker prints over plain HTTP, behind a proxy that serves the page in a folder', async () => {
+  const proxy = await startProxy(there.daemon.address, '/hydroprint/');
+  const address = `http://${kLanHost}:${proxy.port}/hydroprint/`;
+  const person = await visit(there.browser, address);
+  const { page } = person;
+  await signIn(page, 'mia');
+  const lacks = () => [typeof crypto.subtle, typeof crypto.randomUUID];
+  expect(await page.evaluate(lacks)).toEqual(['undefined', 'undefined']);
+
+  const { obj, mtl, png } = files();
+  // Comments, so that the file has several chunks.
+  writeFileSync(obj, `${readFileSync(obj, 'utf8')}${`#${'x'.repeat(99)}\n`.repeat(30_000)}`);
+  await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
+  await page.getByRole('radio', { name: 'cm' }).check();
+  await page.getByText('Size: 20.0 × 20.0 × 20.0 mm').waitFor();
+  await page.getByLabel('Resolution').selectOption('150 dpi');
+  await page.getByText('More settings').click();
+  await page.getByLabel('Depth').fill('6');
+  await page.getByLabel('Simulation model').selectOption('MODEL_STOKES');
+  await page.getByRole('button', { name: 'Simulate' }).click();
+  await page.waitForURL(/\/hydroprint\/#\/jobs\/\d+$/);
+  // The page learns of the job's end from the event stream.
+  await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
+  expect(proxy.refused).toBe(0);
+
+  await page.getByRole('radio', { name: 'Files' }).check();
+  const download = page.waitForEvent('download');
+  await page.getByRole('link', { name: 'film.png' }).click();
+  expect(
+    readFileSync(await (await download).path())
+      .subarray(1, 4)
+      .toString(),
+  ).toBe('PNG');
+  expect(person.complaints).toEqual([]);
+
+  // A sign-in link, and an address below the page.
+  const send = await asAdmin(there.daemon.address);
+  const { token } = await send<{ token: string }>('POST', 'users/vera:createSignInLink');
+  const vera = await visit(there.browser, `${address}sign-in#${token}`);
+  await vera.page.getByRole('button', { name: 'Sign out' }).waitFor();
+  expect(vera.page.url()).toBe(address);
+  await vera.page.goto(`${address}jobs/1`);
+  await vera.page.getByRole('button', { name: 'Sign out' }).waitFor();
+  expect(vera.page.url()).toBe(address);
+  expect(vera.complaints).toEqual([]);
+  proxy.stop();
+});
+
 rareTest('while the object is turned, a preview shows coverage, stretch and warnings', async () => {
   const person = await come(there, 'mia');
   const { page } = person;
@@ -149,6 +206,7 @@ rareTest(
     await page.locator('.stage canvas').waitFor();
     expect(await page.getByLabel('Longest side').inputValue()).toBe('60');
     expect(await page.getByLabel('One unit is').inputValue()).toBe('1000');
+    expect(await page.getByRole('radio', { name: 'm', exact: true }).isChecked()).toBe(true);
     await page.getByRole('region', { name: 'Preview' }).waitFor({ timeout: 60_000 });
     await look(person, 'new-print-glb');
     await page.getByLabel('Resolution').selectOption('150 dpi');

@@ -5,10 +5,10 @@ import { complain } from './state/notices';
 import './theme';
 import './style.css';
 
-/** A one-time link is "/sign-in#TOKEN". The token is removed from the address bar immediately. */
+/** A one-time link is "sign-in#TOKEN". The token is removed from the address bar immediately. */
 async function start(): Promise<void> {
-  const token = location.pathname === '/sign-in' ? location.hash.slice(1) : '';
-  if (location.pathname !== '/') history.replaceState(null, '', '/');
+  const token = location.pathname.endsWith('/sign-in') ? location.hash.slice(1) : '';
+  if (!location.pathname.endsWith('/')) history.replaceState(null, '', './');
   if (!token) return begin();
   const answer = await signIn({ linkToken: token });
   if (answer.ok) return;

@@ -9,10 +9,14 @@ import { placeOf } from '../src/model/report';
 import {
   formatBytes,
   formatSeconds,
+  formatSize,
   formatTime,
+  likelyUnit,
+  oddSize,
   parseNumber,
   readNumber,
   secondsOf,
+  unitOf,
 } from '../src/model/units';
 
 describe('figures', () => {
@@ -203,3 +207,41 @@ async function grey16Png(width: number, height: number, values: number[]): Promi
     ...chunk('IEND', []),
   ]).buffer; // prettier-ignore
 }
+
+describe('the unit of a model', () => {
+  test('is recognised by its length, and other scales are custom', () => {
+    expect([1, 10, 25.4, 1000, 15].map((length) => unitOf(length)?.name)).toEqual([
+      'mm',
+      'cm',
+      'inch',
+      'm',
+      undefined,
+    ]);
+    // A scale that was computed from a length may differ in its last digit.
+    expect(unitOf((25.4 * 30) / 30.000000000000004)?.name).toBe('inch');
+  });
+
+  test('is in doubt below 5 mm and above 1,000 mm', () => {
+    expect([0.06, 4.999, 5, 120, 1000, 1000.1].map(oddSize)).toEqual([
+      'small',
+      'small',
+      '',
+      '',
+      '',
+      'large',
+    ]);
+  });
+
+  test('is likely that of the file format, or else one that gives a usual size', () => {
+    const names = [0.06, 0.2, 2, 0.8, 4, 60, 3000, 0.001].map((side) => likelyUnit(side)?.name);
+    expect(names).toEqual(['m', 'm', 'inch', 'm', 'inch', 'mm', undefined, undefined]);
+    expect(likelyUnit(0.9, 1000)?.name).toBe('m');
+    expect(likelyUnit(60, 1000)?.name).toBe('mm');
+  });
+
+  test('gives a size that is shown with 0.1 mm or three digits', () => {
+    expect(formatSize([60, 40.04, 120.5])).toBe('60.0 × 40.0 × 120.5 mm');
+    expect(formatSize([0.0321, 0, 2500])).toBe('0.0321 × 0 × 2,500 mm');
+    expect(formatSize([999.96, 9.999, 5])).toBe('1,000 × 10 × 5 mm');
+  });
+});

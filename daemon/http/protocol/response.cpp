@@ -11,10 +11,11 @@ namespace hydroprint::http {
 namespace {
 
 const char* phrase_of(int status) {
-  static constexpr std::array<std::pair<int, const char*>, 26> kPhrases{{
+  static constexpr std::array<std::pair<int, const char*>, 27> kPhrases{{
       {200, "OK"},
       {204, "No Content"},
       {206, "Partial Content"},
+      {302, "Found"},
       {304, "Not Modified"},
       {400, "Bad Request"},
       {401, "Unauthorized"},

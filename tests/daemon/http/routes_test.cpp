@@ -126,6 +126,21 @@ TEST_F(HttpTest, UnknownHostNamesAreRefused) {
   }
 }
 
+TEST_F(HttpTest, RefusalsOfHostAndOriginNameTheValuesAndTheProxySetting) {
+  HttpConnection connection(daemon.http());
+  connection.send("GET /v1/queue HTTP/1.1\r\nHost: rig\xc3\xa4.lan\r\n\r\n");
+  const std::string host = connection.read_answer().json().at("error").at("message");
+  EXPECT_EQ(host.find("unknown host name (Host: rig??.lan)"), 0U) << host;
+  EXPECT_NE(host.find("nginx: proxy_set_header Host"), std::string::npos) << host;
+  EXPECT_NE(host.find("server.host_names"), std::string::npos) << host;
+  const HttpAnswer answer =
+      ask(daemon.http(), "POST", "/v1/queue:pause", "{}", "Origin: https://rig.lan\r\n");
+  const std::string origin = answer.json().at("error").at("message");
+  EXPECT_NE(origin.find("(Origin: https://rig.lan; Host: localhost)"), std::string::npos) << origin;
+  EXPECT_NE(origin.find("nginx: proxy_set_header Host"), std::string::npos) << origin;
+  EXPECT_NE(origin.find("server.host_names"), std::string::npos) << origin;
+}
+
 TEST_F(HttpTest, OtherSitesCannotChangeAnything) {
   const std::string pause = R"({"reason": "evil"})";
   for (const char* origin : {"Origin: http://evil.example\r\n", "Origin: null\r\n",

@@ -14,6 +14,7 @@ class HttpEvents : public HttpTest {
     EXPECT_EQ(head.status, 200);
     EXPECT_EQ(head.field("content-type"), "text/event-stream");
     EXPECT_EQ(head.field("cache-control"), "no-store");
+    EXPECT_EQ(head.field("x-accel-buffering"), "no");
     return connection;
   }
 

@@ -45,11 +45,22 @@ TEST_F(HttpStaticFiles, PathsCannotLeaveTheFolder) {
 
 TEST_F(HttpStaticFiles, ClientRoutesServeIndexHtml) {
   const auto files = StaticFiles::load(folder.path() / "web");
-  for (const char* target : {"/", "/index.html", "/jobs/7?x=1", "/queue"}) {
+  for (const char* target : {"/", "/index.html", "/jobs?x=1", "/queue"}) {
     const Response page = files->answer(asked(target));
     EXPECT_EQ(page.content(), "<!doctype html>page") << target;
     EXPECT_EQ(page.fields.find("Content-Type"), "text/html; charset=utf-8");
     EXPECT_EQ(page.fields.find("Cache-Control"), "no-cache");
+  }
+}
+
+TEST_F(HttpStaticFiles, PathsInFoldersRedirectToThePage) {
+  const auto files = StaticFiles::load(folder.path() / "web");
+  const std::pair<const char*, const char*> cases[] = {
+      {"/jobs/7?x=1", "../"}, {"/a/b/c", "../../"}, {"//evil", "../"}, {"/jobs/", "../"}};
+  for (const auto& [target, root] : cases) {
+    const Response page = files->answer(asked(target));
+    EXPECT_EQ(page.status, 302) << target;
+    EXPECT_EQ(page.fields.find("Location"), root) << target;
   }
 }
 

@@ -25,7 +25,10 @@ export interface Options {
   keepalive?: boolean;
 }
 
-/** The URL of a resource, such as "jobs/7" or "rig:stop". */
+/**
+ * The URL of a resource, such as "jobs/7" or "rig:stop". It is relative to the page, which a reverse proxy may serve in a
+ * folder.
+ */
 export function address(path: string, query: Options['query'] = {}): string {
   const parts = new URLSearchParams();
   for (const [key, value] of Object.entries(query)) {
@@ -35,7 +38,7 @@ export function address(path: string, query: Options['query'] = {}): string {
   const text = parts.toString();
   // Names are untrusted and may contain any character, so all are encoded except ":" and "/", which the API uses.
   const plain = path.split('/').map(encodeURIComponent).join('/').replaceAll('%3A', ':');
-  return `/v1/${plain}${text ? `?${text}` : ''}`;
+  return `v1/${plain}${text ? `?${text}` : ''}`;
 }
 
 /** Sends a request to the daemon; T is the type of its response. */
@@ -121,14 +124,32 @@ interface Status {
 
 async function failureOf(response: Response): Promise<Failure> {
   const status = response.status;
-  const body = (await response.json().catch(() => ({}))) as Status;
+  const body = (await response.json().catch(() => undefined)) as Status | undefined;
+  if (!body?.error) return failureOfProxy(status);
   const info = body.error?.details?.find((detail) => detail.reason);
   return {
-    what: body.error?.message || `the daemon refused the request (HTTP ${status})`,
+    what: body.error.message || `the daemon refused the request (HTTP ${status})`,
     status,
-    reason: info?.reason ?? body.error?.status ?? '',
+    reason: info?.reason ?? body.error.status ?? '',
     ...remedyOf(status),
     ...(info?.metadata ? { metadata: info.metadata } : {}),
+  };
+}
+
+// The daemon describes every error in JSON. Other responses come from a proxy before the daemon.
+function failureOfProxy(status: number): Failure {
+  if ([502, 503, 504].includes(status)) return lost().failure;
+  if (status === 413)
+    return {
+      what: 'a reverse proxy refused the request because it is too large (HTTP 413)',
+      remedy:
+        'Ask an admin to raise the proxy’s limit to 1 MiB or more (nginx: client_max_body_size 1m)',
+      status,
+    };
+  return {
+    what: `the request was refused (HTTP ${status}), and not by the daemon`,
+    remedy: 'Ask an admin to check the reverse proxy',
+    status,
   };
 }
 

@@ -1,5 +1,6 @@
 /** The API methods that the page uses. The .proto files in proto/hydroprint/v1 document their errors. */
 import type { Result } from '../model/result';
+import { randomId } from '../model/random_id';
 import { address, call } from './call';
 import type {
   ApiKey,
@@ -24,7 +25,7 @@ type None = Record<string, never>;
 type Page<K extends string, T> = Record<K, T[]> & { nextPageToken: string };
 
 /** Creates a request_id, which makes a repeated request safe. */
-export const newRequestId = (): string => crypto.randomUUID();
+export const newRequestId = (): string => randomId();
 
 export const jobs = {
   list: (query: { owner?: string; states?: readonly JobState[]; pageToken?: string }) =>

@@ -1,18 +1,15 @@
 /** Resumable uploads: they continue after a lost connection and after a reload of the page. */
 import { done, refused, type Result } from '../model/result';
 import { call } from './call';
+import { sha256 } from './sha256';
 import type { Asset, Upload } from './types';
 
-const kChunk = 4 << 20;
+// Below 1 MiB, nginx's default limit for request bodies.
+const kChunk = 512 << 10;
 const kWaits_s = [0.5, 1, 2, 4, 8, 15];
 
-type Answer = { asset?: Asset; upload?: Upload };
-
-/** Returns the SHA-256 in lower-case hexadecimal. */
-export async function sha256(bytes: ArrayBuffer): Promise<string> {
-  const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
-  return [...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('');
-}
+type Answer = { asset?: Asset; receivedBytes?: number };
+type Started = { asset?: Asset; upload?: Upload };
 
 const wait = (seconds: number) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
@@ -25,13 +22,13 @@ export async function upload(
   onProgress: (share: number, isLost: boolean) => void,
   signal: AbortSignal,
 ): Promise<Result<string>> {
-  const bytes = await file.arrayBuffer().catch(() => undefined);
-  if (!bytes)
+  const hash = await sha256(file, signal).catch(() => undefined);
+  if (signal.aborted) return refused('cancelled', undefined, { reason: 'ABORTED_HERE' });
+  if (!hash)
     return refused(
       'the file cannot be read; it may have been moved or changed',
       'Choose the file again',
     );
-  const hash = await sha256(bytes);
   const resumable = new ResumableUpload(hash);
   let share = 0;
   for (let lost = 0; ; ) {
@@ -41,15 +38,17 @@ export async function upload(
         resumable.forget();
         return done(answer.value.asset.name);
       }
-      lost = 0;
-      const got = Number(answer.value.upload?.receivedBytes ?? 0);
+      const got = answer.value.receivedBytes ?? 0;
+      const before = share;
       share = file.size > 0 ? got / file.size : 1;
+      if (share > before) lost = 0;
       onProgress(share, false);
       continue;
     }
     const { failure } = answer;
     if (signal.aborted || !passes(failure.status, failure.reason)) return answer;
     // If the daemon has discarded the upload, start again; otherwise continue from its offset.
+    resumable.offset = undefined;
     if (failure.reason === 'UPLOAD_NOT_FOUND') resumable.forget();
     onProgress(share, failure.status === 0);
     await wait(kWaits_s[Math.min(lost, kWaits_s.length - 1)]!);
@@ -62,7 +61,7 @@ const passes = (status: number | undefined, reason: string | undefined): boolean
   status === 503 ||
   ['UPLOAD_NOT_FOUND', 'UPLOAD_BUSY', 'OFFSET_MISMATCH', 'UPLOADS_FULL'].includes(reason ?? '');
 
-/** Creates the upload, or gets its offset and sends the next chunk. Safe to repeat after any failure. */
+/** Creates the upload, gets its offset if that is unknown, or sends the next chunk. Safe to repeat after any failure. */
 async function step(
   file: Blob,
   hash: string,
@@ -70,16 +69,22 @@ async function step(
   signal: AbortSignal,
 ): Promise<Result<Answer>> {
   if (!resumable.name) {
-    const answer = await call<Answer>('POST', 'uploads', {
+    const answer = await call<Started>('POST', 'uploads', {
       json: { sizeBytes: String(file.size), sha256: hash, mediaType: file.type || undefined },
       signal,
     });
-    if (answer.ok && answer.value.upload) resumable.remember(answer.value.upload.name);
-    return answer;
+    if (!answer.ok) return answer;
+    const { asset, upload: started } = answer.value;
+    if (started) resumable.begin(started);
+    return done(asset ? { asset } : { receivedBytes: resumable.offset ?? 0 });
   }
-  const known = await call<Upload>('GET', resumable.name, { signal });
-  if (!known.ok) return known;
-  const offset = Number(known.value.receivedBytes);
+  const { offset } = resumable;
+  if (offset === undefined) {
+    const known = await call<Upload>('GET', resumable.name, { signal });
+    if (!known.ok) return known;
+    resumable.offset = Number(known.value.receivedBytes);
+    return done({ receivedBytes: resumable.offset });
+  }
   const sent = await call<Partial<Asset>>('PATCH', resumable.name, {
     bytes: file.slice(offset, offset + kChunk),
     headers: { 'Upload-Offset': String(offset), 'Content-Type': 'application/offset+octet-stream' },
@@ -88,21 +93,24 @@ async function step(
   if (!sent.ok) return sent;
   // Only the response to the last chunk contains the asset.
   if (sent.value.name) return done({ asset: sent.value as Asset });
-  const receivedBytes = String(Math.min(offset + kChunk, file.size));
-  return done({ upload: { ...known.value, receivedBytes } });
+  resumable.offset = Math.min(offset + kChunk, file.size);
+  return done({ receivedBytes: resumable.offset });
 }
 
 /** Remembers, across reloads, the upload that was started for these bytes. */
 class ResumableUpload {
   name: string | undefined;
+  /** Number of bytes that the daemon has; undefined if it has to be asked. */
+  offset: number | undefined;
   private readonly key: string;
 
   constructor(hash: string) {
     this.key = `upload:${hash}`;
     this.name = localStorage.getItem(this.key) ?? undefined;
   }
-  remember(name: string): void {
+  begin({ name, receivedBytes }: Upload): void {
     this.name = name;
+    this.offset = Number(receivedBytes);
     localStorage.setItem(this.key, name);
   }
   forget(): void {

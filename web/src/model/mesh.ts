@@ -63,5 +63,11 @@ export const centreOf = ({ min, max }: Box): Vec3 => [
   (min[2] + max[2]) / 2,
 ];
 
-export const longestOf = ({ min, max }: Box): number =>
-  Math.max(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+/** Extents along x, y and z. */
+export const sidesOf = ({ min, max }: Box): Vec3 => [
+  max[0] - min[0],
+  max[1] - min[1],
+  max[2] - min[2],
+];
+
+export const longestOf = (box: Box): number => Math.max(...sidesOf(box));

@@ -7,6 +7,50 @@ export const formatShare = (share: number): string => `${(share * 100).toFixed(1
 
 export const formatFactor = (value: number): string => `${value.toFixed(2)} ×`;
 
+/** "60.0 mm", "0.032 mm", "2,500 mm": three digits or 0.1 mm. */
+function formatLength(mm: number): string {
+  if (mm >= 999.95) return Math.round(mm).toLocaleString('en-US');
+  return mm >= 10 ? mm.toFixed(1) : String(Number(mm.toPrecision(3)));
+}
+
+/** "60.0 × 40.0 × 120.5 mm". */
+export const formatSize = (sides_mm: readonly number[]): string =>
+  `${sides_mm.map(formatLength).join(' × ')} mm`;
+
+export const kLengthUnits = [
+  { name: 'mm', length_mm: 1 },
+  { name: 'cm', length_mm: 10 },
+  { name: 'inch', length_mm: 25.4 },
+  { name: 'm', length_mm: 1000 },
+] as const;
+export type LengthUnit = (typeof kLengthUnits)[number];
+
+/** The unit of this length; undefined if it has another length. */
+export const unitOf = (length_mm: number): LengthUnit | undefined =>
+  kLengthUnits.find((unit) => Math.abs(length_mm / unit.length_mm - 1) < 1e-9);
+
+/** Returns why an object of this size is probably not meant; empty if the size is plausible. */
+export function oddSize(longest_mm: number): '' | 'small' | 'large' {
+  if (longest_mm < 5) return 'small';
+  return longest_mm > 1000 ? 'large' : '';
+}
+
+const kUsual_mm = 150; // longest side of a usual object
+
+/**
+ * The likely unit of a model: that of its file format if the object then has a plausible size, otherwise the unit in which
+ * its size is nearest to a usual one; undefined if it is plausible in none.
+ * @param longest  longest side in units of the file
+ */
+export function likelyUnit(longest: number, format_mm?: number): LengthUnit | undefined {
+  const plausible = kLengthUnits.filter((unit) => oddSize(longest * unit.length_mm) === '');
+  const distance = (unit: LengthUnit) => Math.abs(Math.log((longest * unit.length_mm) / kUsual_mm));
+  return (
+    plausible.find((unit) => unit.length_mm === format_mm) ??
+    plausible.sort((a, b) => distance(a) - distance(b))[0]
+  );
+}
+
 /** "850 ms", "12 s", "3 min 05 s", "2 h 10 min", "3 d 4 h". */
 export function formatSeconds(seconds: number): string {
   if (!Number.isFinite(seconds)) return '–';

@@ -1,10 +1,10 @@
 /** The draft of a new print. It is kept with its files across reloads until the user starts over. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import * as rules from '../../api/rules';
-import { jobs as jobsApi } from '../../api/services';
+import { jobs as jobsApi, newRequestId } from '../../api/services';
 import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '../../api/types';
 import { filmOf, type Film } from '../../model/film';
-import { centreOf, longestOf, type Box, type Mesh } from '../../model/mesh';
+import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
@@ -58,7 +58,7 @@ export const draft = signal<Draft>(kEmpty);
 export const shape = signal<Shape | undefined>(undefined);
 
 export const change = (part: Partial<Draft>): void => {
-  draft.value = { ...draft.value, requestId: crypto.randomUUID(), ...part };
+  draft.value = { ...draft.value, requestId: newRequestId(), ...part };
 };
 
 export const film = computed<Film>(() => filmOf(draft.value.film) ?? filmOf('A4')!);
@@ -67,6 +67,13 @@ export const film = computed<Film>(() => filmOf(draft.value.film) ?? filmOf('A4'
 export const centre_mm = computed<Vec3>(() => {
   const { scale } = draft.value;
   const [x, y, z] = shape.value ? centreOf(shape.value.box) : [0, 0, 0];
+  return [x * scale, y * scale, z * scale];
+});
+
+/** Width, depth and height of the object's bounding box before it is turned, mm. */
+export const sides_mm = computed<Vec3>(() => {
+  const { scale } = draft.value;
+  const [x, y, z] = shape.value ? sidesOf(shape.value.box) : [0, 0, 0];
   return [x * scale, y * scale, z * scale];
 });
 
@@ -92,16 +99,8 @@ export async function restore(): Promise<void> {
   });
 }
 
-/**
- * Initial scale: the unit of the file format (default: mm) if the object is then 15 to 400 mm long; otherwise the scale
- * at which it is 100 mm long.
- */
-export function firstScale({ mesh, box }: Shape): number {
-  const unit_mm = mesh.unit_mm ?? 1;
-  const longest = longestOf(box) * unit_mm;
-  const fits = longest >= 15 && longest <= 400;
-  return fits ? unit_mm : Number((100 / longestOf(box)).toPrecision(4));
-}
+/** Initial scale: the unit that the file format defines (glTF: metre), otherwise mm. */
+export const firstScale = ({ mesh }: Shape): number => mesh.unit_mm ?? 1;
 
 export function clear(): void {
   batch(() => {
@@ -134,7 +133,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
       model: spec.model === 'MODEL_STOKES' ? 'MODEL_STOKES' : 'MODEL_SHEET',
       speed_mm_per_s: spec.dipSpeedMmPerS ?? 5,
       ...(spec.depthMm ? { depth_mm: spec.depthMm } : {}),
-      requestId: crypto.randomUUID(),
+      requestId: newRequestId(),
     };
   });
   return done(answer.value);

@@ -127,7 +127,7 @@ interface Sample {
 }
 
 export async function samples(): Promise<Sample[]> {
-  const response = await fetch('/samples.json').catch(() => undefined);
+  const response = await fetch('samples.json').catch(() => undefined);
   return response?.ok ? ((await response.json()) as Sample[]) : [];
 }
 
@@ -135,7 +135,7 @@ export async function samples(): Promise<Sample[]> {
 export async function takeSample(name: string): Promise<Result<void>> {
   const files: File[] = [];
   for (const ending of ['obj', 'mtl', 'png']) {
-    const response = await fetch(`/samples/${name}.${ending}`).catch(() => undefined);
+    const response = await fetch(`samples/${name}.${ending}`).catch(() => undefined);
     if (!response?.ok)
       return refused('the sample cannot be downloaded', 'Try again, or drop a model of your own');
     files.push(new File([await response.blob()], `${name}.${ending}`));

@@ -1,12 +1,19 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
 import { limitsOf } from '../../model/limits';
-import { formatBytes, formatMm } from '../../model/units';
-import { Button, NumberField } from '../../ui/controls';
+import {
+  formatBytes,
+  formatSize,
+  kLengthUnits,
+  likelyUnit,
+  oddSize,
+  unitOf,
+} from '../../model/units';
+import { Button, NumberField, Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
-import { change, draft, longest_mm, shape } from './draft';
+import { change, draft, longest_mm, shape, sides_mm } from './draft';
 import { isReading, problems, samples, take, takeSample } from './intake';
 
 const kEndings = '.obj,.mtl,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
@@ -92,9 +99,8 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
 
 /** The accepted files, the size of the object, and the refused files. */
 export function Taken() {
-  const { files, from, scale } = draft.value;
+  const { files, from } = draft.value;
   const hasAny = files.length > 0 || from;
-  const unit_mm = shape.value?.mesh.unit_mm ?? 1;
   return (
     <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
@@ -122,31 +128,73 @@ export function Taken() {
         </div>
       )}
       {hasAny && <Browse label="Add or replace files" />}
-      {shape.value && !calibrated.value && (
-        <div class="row">
-          <NumberField
-            label="Longest side"
-            unit="mm"
-            value={longest_mm.value}
-            min={1}
-            max={2000}
-            onValue={(value) => change({ scale: (scale * value) / longest_mm.value })}
-          />
-          <NumberField
-            label="One unit is"
-            {...limitsOf(rules.SimulateSpec.scale)}
-            digits={6}
-            value={scale}
-            onValue={(value) => change({ scale: value })}
-          />
-        </div>
-      )}
-      {shape.value && scale !== unit_mm && files.length > 0 && !calibrated.value && (
-        <p class="quiet">
-          Without scaling, the longest side would be{' '}
-          {formatMm((longest_mm.value / scale) * unit_mm)}. Check the size of the object.
-        </p>
-      )}
+      {shape.value && !calibrated.value && <Size />}
     </section>
+  );
+}
+
+/** The unit of the model, and the size that follows from it. */
+function Size() {
+  const { scale } = draft.value;
+  const unit = unitOf(scale);
+  return (
+    <>
+      <div class="field">
+        <span class="label" aria-hidden="true">
+          Unit of the model{unit ? '' : ': custom'}
+        </span>
+        <Switch<string>
+          label="Unit of the model"
+          value={unit?.name ?? ''}
+          choices={kLengthUnits.map(({ name }) => ({ value: name, label: name }))}
+          onValue={(name) =>
+            change({ scale: kLengthUnits.find((one) => one.name === name)!.length_mm })
+          }
+        />
+      </div>
+      <p>
+        Size: <b>{formatSize(sides_mm.value)}</b> <span class="quiet">(W × D × H)</span>
+      </p>
+      <SizeWarning />
+      <div class="row">
+        <NumberField
+          label="Longest side"
+          unit="mm"
+          value={longest_mm.value}
+          min={1}
+          max={2000}
+          onValue={(value) => change({ scale: (scale * value) / longest_mm.value })}
+        />
+        <NumberField
+          label="One unit is"
+          {...limitsOf(rules.SimulateSpec.scale)}
+          digits={6}
+          value={scale}
+          onValue={(value) => change({ scale: value })}
+        />
+      </div>
+    </>
+  );
+}
+
+function SizeWarning() {
+  const odd = oddSize(longest_mm.value);
+  if (!odd) return null;
+  const longest = longest_mm.value / draft.value.scale;
+  const unit = likelyUnit(longest, shape.value?.mesh.unit_mm);
+  return (
+    <div class="warning" role="status">
+      <p>
+        The object is {odd === 'small' ? 'smaller than 5 mm' : 'larger than 1,000 mm'}.{' '}
+        {unit
+          ? `The unit of the model is probably ${unit.name}; its longest side is then ${formatSize([longest * unit.length_mm])}.`
+          : 'Check the unit of the model, or enter its longest side.'}
+      </p>
+      {unit && (
+        <button type="button" onClick={() => change({ scale: unit.length_mm })}>
+          Use {unit.name}
+        </button>
+      )}
+    </div>
   );
 }

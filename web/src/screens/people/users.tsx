@@ -21,7 +21,10 @@ export function Users() {
   const makeLink = async (user: User) => {
     const made = orNotify(await api.link(user.name));
     if (made)
-      setLink({ user: plainName(user.name), address: `${location.origin}/sign-in#${made.token}` });
+      setLink({
+        user: plainName(user.name),
+        address: new URL(`sign-in#${made.token}`, location.href).href,
+      });
   };
   return (
     <section aria-labelledby="users-title">
