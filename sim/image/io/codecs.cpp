@@ -58,10 +58,23 @@ std::optional<float> gamma_of(const ImageSpec& spec) {
   return gamma;
 }
 
+Warning profile_ignored(const std::string& why, bool is_float, const std::string& name) {
+  return {
+      "profile_ignored",
+      fmt::format("the colour profile of the image was ignored: {}. Its values were taken as {}",
+                  why, is_float ? "linear light" : "sRGB"),
+      name};
+}
+
 /// Finds the meaning of the colour values: by a profile, else by a gamma.
-ColourCoding coding_of(const ImageSpec& spec, const PixelLayout& layout, const std::string& name,
-                       Warnings& warnings) {
+/// @param has_profile  the file has one, even if the decoder did not return it
+ColourCoding coding_of(const ImageSpec& spec, const PixelLayout& layout, bool has_profile,
+                       const std::string& name, Warnings& warnings) {
   const auto* profile = spec.find_attribute("ICCProfile");
+  if (profile == nullptr && has_profile) {
+    warnings.push_back(profile_ignored("it is damaged or does not fit the image", false, name));
+    return {};
+  }
   if (profile == nullptr) return {{}, gamma_of(spec)};
   const auto size = profile->type().size();
   auto conversion = ProfileToSrgb::create({static_cast<const std::uint8_t*>(profile->data()), size},
@@ -70,13 +83,8 @@ ColourCoding coding_of(const ImageSpec& spec, const PixelLayout& layout, const s
     if (conversion->is_srgb()) return {};
     return {std::move(*conversion), {}};
   }
-  warnings.push_back(
-      {"profile_ignored",
-       fmt::format("the colour profile of the image was ignored: {}. Its values were "
-                   "taken as {}",
-                   conversion ? "the image has floats" : conversion.error(),
-                   layout.is_float ? "linear light" : "sRGB"),
-       name});
+  warnings.push_back(profile_ignored(conversion ? "the image has floats" : conversion.error(),
+                                     layout.is_float, name));
   return {};
 }
 
@@ -125,6 +133,7 @@ Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& 
 struct Opened {
   std::unique_ptr<ImageInput> input;
   ImageSpec spec;
+  bool has_profile = false;  ///< the file has a profile, even if the decoder does not return it
 };
 
 Result<Opened> open(IOProxy& proxy, const std::string& name) {
@@ -132,8 +141,9 @@ Result<Opened> open(IOProxy& proxy, const std::string& name) {
                          [&](void* to, std::size_t count, std::int64_t offset) {
                            return proxy.pread(to, count, offset);
                          }};
-  HP_ASSIGN_OR_RETURN(const Format format, check_header(bytes, name));
-  Opened out{ImageInput::create(decoder_name(format), false, nullptr), {}};
+  HP_ASSIGN_OR_RETURN(const FileHeader header, check_header(bytes, name));
+  const Format format = header.format;
+  Opened out{ImageInput::create(decoder_name(format), false, nullptr), {}, header.has_profile};
   if (!out.input || !out.input->set_ioproxy(&proxy)) {
     return fail(Code::kUnimplemented,
                 name + ": no decoder for " + decoder_name(format) +
@@ -158,7 +168,7 @@ Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context&
   const Turned turned(decoding.as_stored ? 1 : spec.get_int_attribute("Orientation", 1), spec.width,
                       spec.height);
   ColourCoding coding;
-  if (!decoding.as_stored) coding = coding_of(spec, layout, name, out.warnings);
+  if (!decoding.as_stored) coding = coding_of(spec, layout, opened.has_profile, name, out.warnings);
   PixelConverter converter(layout, std::move(coding), decoding);
   out.image.width = turned.width();
   out.image.height = turned.height();

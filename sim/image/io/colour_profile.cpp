@@ -25,7 +25,8 @@ constexpr int kHalfStep = 257 / 2;
 
 tl::expected<ProfileToSrgb, std::string> ProfileToSrgb::create(
     std::span<const std::uint8_t> profile, int channels) {
-  if (profile.size() > kMaxProfile_bytes) return tl::unexpected<std::string>("it is larger than 16 MiB");
+  if (profile.size() > kMaxProfile_bytes)
+    return tl::unexpected<std::string>("it is larger than 16 MiB");
   const Profile from =
       owned(cmsOpenProfileFromMem(profile.data(), static_cast<cmsUInt32Number>(profile.size())));
   if (!from) return tl::unexpected<std::string>("it is damaged");
@@ -36,7 +37,7 @@ tl::expected<ProfileToSrgb, std::string> ProfileToSrgb::create(
   ProfileToSrgb out;
   out.inputs_ = space == cmsSigGrayData ? 1 : 3;
   // Not optimised, because the optimised transform of 16-bit values is a table of 33 steps, which
-  // is wrong by up to ten 8-bit codes where colours leave the gamut.
+  // is wrong by up to nineteen 8-bit codes where colours leave the gamut.
   const cmsHTRANSFORM transform = cmsCreateTransform(
       from.get(), out.inputs_ == 1 ? TYPE_GRAY_16 : TYPE_RGB_16, to.get(), TYPE_RGB_16,
       INTENT_RELATIVE_COLORIMETRIC, cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOOPTIMIZE);

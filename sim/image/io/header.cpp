@@ -53,7 +53,8 @@ bool is_chunk_sound(const ByteSource& bytes, std::int64_t offset, std::int64_t l
          big_endian(stored.data(), 4) == ~crc;
 }
 
-Status check_png(const ByteSource& bytes, const std::string& name) {
+/// @return true if the image has an ICC profile
+Result<bool> check_png(const ByteSource& bytes, const std::string& name) {
   Signature head{};
   if (bytes.read(head.data(), 8, 16) != 8) {
     return fail(Code::kDataLoss, at_byte(name, 16) +
@@ -62,6 +63,7 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
   }
   HP_RETURN_IF_ERROR(check_size(big_endian(head.data(), 4), big_endian(head.data() + 4, 4),
                                 bytes.size, Format::kPng, name));
+  bool has_profile = false;
   for (std::int64_t at = 8;;) {
     if (bytes.read(head.data(), 8, at) != 8) {
       return fail(Code::kDataLoss,
@@ -71,7 +73,8 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
     const std::int64_t length = big_endian(head.data(), 4);
     const bool is_last = std::memcmp(head.data() + 4, "IEND", 4) == 0;
     // A wrong checksum in the last chunk does no harm.
-    if (is_last) return {};
+    if (is_last) return has_profile;
+    has_profile = has_profile || std::memcmp(head.data() + 4, "iCCP", 4) == 0;
     if (at + 12 + length > bytes.size || !is_chunk_sound(bytes, at, length)) {
       return fail(Code::kDataLoss, at_byte(name, at) +
                                        "a chunk of the PNG is truncated or "
@@ -120,22 +123,22 @@ const char* decoder_name(Format format) {
   return "";
 }
 
-Result<Format> check_header(const ByteSource& bytes, const std::string& name) {
+Result<FileHeader> check_header(const ByteSource& bytes, const std::string& name) {
   Signature head{};
   const std::size_t got = bytes.read(head.data(), head.size(), 0);
   const auto starts = [&](const char* magic, std::size_t length) {
     return got >= length && std::memcmp(head.data(), magic, length) == 0;
   };
   if (starts("\x89PNG\r\n\x1a\n", 8)) {
-    HP_RETURN_IF_ERROR(check_png(bytes, name));
-    return Format::kPng;
+    HP_ASSIGN_OR_RETURN(const bool has_profile, check_png(bytes, name));
+    return FileHeader{Format::kPng, has_profile};
   }
   if (starts("\xFF\xD8\xFF", 3)) {
     HP_RETURN_IF_ERROR(check_jpeg(bytes, name));
-    return Format::kJpeg;
+    return FileHeader{Format::kJpeg};
   }
   if (starts("II*\0", 4) || starts("MM\0*", 4) || starts("II+\0", 4) || starts("MM\0+", 4)) {
-    return Format::kTiff;
+    return FileHeader{Format::kTiff};
   }
   return fail(Code::kInvalidArgument,
               name + ": not a PNG, JPEG or TIFF image. Use an image in one of these formats");

@@ -19,7 +19,8 @@ PixelConverter::PixelConverter(const PixelLayout& layout, ColourCoding coding,
       coding_(std::move(coding)),
       decoding_(decoding),
       is_changed_(!decoding.tint.isOnes() || coding_.gamma ||
-                  (decoding.opacity < 1 && decoding.alpha != Alpha::kIgnored)),
+                  (decoding.opacity < 1 && decoding.alpha != Alpha::kIgnored) ||
+                  (decoding.cutoff > 1 && decoding.alpha == Alpha::kCutOut)),
       converted_layout_{4, layout.alpha >= 0 ? 3 : -1, false, false, false} {}
 
 bool PixelConverter::is_plain(const std::uint16_t* pixel, const PixelLayout& layout) const {

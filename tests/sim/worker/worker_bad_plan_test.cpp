@@ -50,7 +50,8 @@ TEST_F(PlanWorker, ModelWithoutColoursIsRefused) {
   Arguments command = plan({"--mesh", path("bare.obj"), "--texture", ""});
   const auto texture = std::find(command.begin(), command.end(), "--texture");
   command.erase(texture, texture + 2);
-  expect_refusal(3, command, {"bare.obj: has no colours", "Give a texture"});
+  expect_refusal(3, command,
+                 {"bare.obj: has no colour that was understood", "Give the model colours"});
 }
 
 TEST_F(PlanWorker, MissingAndUnknownFlagsAreBadUsage) {

@@ -9,6 +9,7 @@
 
 #include "sim/worker/command_line.h"
 #include "sim/worker/common/artifact_task.h"
+#include "tests/sim/worker/bodies.h"
 #include "tests/sim/worker/plan_fixture.h"
 
 namespace hydroprint::worker {
@@ -105,8 +106,9 @@ TEST_F(Stages, OfAPlanComeAsListed) {
 }
 
 TEST_F(Stages, UnusedStagesAreLeftOut) {
-  // Without a texture there is no ink.
-  const Arguments colourless = simulate({"--artifacts", "map"});
+  // Without colours there is no ink.
+  folder.write("bare.obj", sphere_obj(12, 12));
+  const Arguments colourless = simulate({"--mesh", path("bare.obj"), "--artifacts", "map"}, false);
   const Arguments patient =
       simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "10"});
   for (const Arguments& command : {colourless, patient}) {

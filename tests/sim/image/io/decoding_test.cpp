@@ -5,6 +5,8 @@
 #include <lcms2.h>
 
 #include <Eigen/LU>
+#include <fstream>
+#include <iterator>
 
 #include "sim/image/io/colour.h"
 #include "sim/image/io/image_file.h"
@@ -217,6 +219,38 @@ TEST(Decoding, UnusableProfilesGiveAWarning) {
   }
 }
 
+/// Returns the bytes of a PNG chunk.
+std::string chunk(const std::string& type_and_data) {
+  const auto big_endian = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  std::uint32_t crc = ~0U;
+  for (const char byte : type_and_data) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xEDB88320U & (0U - (crc & 1U)));
+  }
+  return big_endian(static_cast<std::uint32_t>(type_and_data.size() - 4)) + type_and_data +
+         big_endian(~crc);
+}
+
+TEST(Decoding, ADamagedProfileOfAPngGivesAWarningAndNoGamma) {
+  const TemporaryFolder folder;
+  ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "Linear");
+  encode(folder / "a.png", spec, TypeDesc::UINT8, kColours);
+  std::ifstream file(folder / "a.png", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  constexpr std::size_t kAfterHeader = 33;
+  bytes.insert(kAfterHeader, chunk(std::string("iCCPx\0\0", 7) + "not compressed"));
+  std::ofstream(folder / "b.png", std::ios::binary) << bytes;
+  const ReadImage read = decode(folder / "b.png");
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_EQ(read.warnings[0].code, "profile_ignored");
+  EXPECT_EQ(codes(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
+}
+
 TEST(Decoding, TheGammaOfAPngCounts) {
   const TemporaryFolder folder;
   ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
@@ -263,6 +297,7 @@ TEST(Decoding, AlphaIsBlendedIgnoredOrCutOut) {
   expect({.alpha = Alpha::kIgnored}, {1, 1, 1, 1}, none);
   expect({.alpha = Alpha::kCutOut}, {1, 1, 0, 0}, none);
   expect({.alpha = Alpha::kCutOut, .cutoff = 0.3F}, {1, 1, 1, 0}, none);
+  expect({.alpha = Alpha::kCutOut, .cutoff = 1.5F}, {0, 0, 0, 0}, none);
   expect({.tint = tint.cast<float>()}, {1, 128 / 255.0, 100 / 255.0, 0}, tint);
 }
 
