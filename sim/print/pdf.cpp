@@ -19,9 +19,9 @@
 #include <qpdf/QPDFWriter.hh>
 #include <string>
 
+#include "sim/base/utf8.h"
 #include "sim/image/io/png.h"
 #include "sim/print/embedded_font.h"
-#include "sim/base/utf8.h"
 
 namespace hydroprint::print {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "sim/base/utf8.h"
 #include "sim/text/font.h"
 #include "sim/text/font_subset.h"
-#include "sim/base/utf8.h"
 #include "tests/fuzz/expect.h"
 
 namespace hydroprint::fuzz {
