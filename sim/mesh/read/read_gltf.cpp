@@ -16,6 +16,7 @@
 #include "sim/mesh/read/gltf_accessor.h"
 #include "sim/mesh/read/gltf_check.h"
 #include "sim/mesh/read/gltf_material.h"
+#include "sim/mesh/read/names.h"
 #include "sim/mesh/read/readers.h"
 
 namespace hydroprint::mesh {
@@ -312,23 +313,38 @@ class GltfImporter {
   std::size_t morphing_ = 0;
 };
 
+/// The folder of a model, and the names of its buffers that were taken for similar ones.
+struct BufferFiles {
+  std::filesystem::path folder;
+  std::map<std::filesystem::path, std::filesystem::path> similar;
+};
+
+/// Returns the file of a buffer: itself, or the only one whose name differs in case or Unicode
+/// form.
+std::optional<std::filesystem::path> buffer_file(const std::string& name, BufferFiles& files) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(name, error)) return name;
+  auto similar = similar_file(name, files.folder);
+  if (similar) files.similar.emplace(name, *similar);
+  return similar;
+}
+
 /// Restricts the importer to buffers below the model's folder. The importer is compiled without
 /// support for images; the texture loader opens the images that are needed.
-tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
+tinygltf::FsCallbacks file_access(BufferFiles& files) {
   tinygltf::FsCallbacks callbacks{};
-  callbacks.user_data = &folder;
+  callbacks.user_data = &files;
   callbacks.FileExists = [](const std::string& name, void* data) {
-    const auto& root = *static_cast<const std::filesystem::path*>(data);
-    const auto within =
-        std::filesystem::path(name).lexically_normal().lexically_relative(root.lexically_normal());
-    std::error_code error;
-    return !within.empty() && *within.begin() != ".." &&
-           std::filesystem::is_regular_file(name, error);
+    auto& own = *static_cast<BufferFiles*>(data);
+    const auto within = std::filesystem::path(name).lexically_normal().lexically_relative(
+        own.folder.lexically_normal());
+    return !within.empty() && *within.begin() != ".." && buffer_file(name, own).has_value();
   };
   callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
   callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string* error,
-                               const std::string& name, void*) {
-    auto bytes = read_file(name);
+                               const std::string& name, void* data) {
+    const auto file = buffer_file(name, *static_cast<BufferFiles*>(data));
+    auto bytes = read_file(file.value_or(name));
     if (!bytes) {
       *error = bytes.error().message;
       return false;
@@ -358,10 +374,10 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
   if (size != bytes.size()) return bad_input(path, "", "the file is too large; simplify the model");
   bytes.append(64, '\0');  // the importer's check of the last chunk is off by eight bytes
 
-  std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  BufferFiles files{path.has_parent_path() ? path.parent_path() : ".", {}};
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_image, nullptr);
-  loader.SetFsCallbacks(file_access(folder));
+  loader.SetFsCallbacks(file_access(files));
   tinygltf::Model source;
   std::string error;
   std::string warning;
@@ -369,11 +385,14 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
       bytes.starts_with("glTF")
           ? loader.LoadBinaryFromMemory(&source, &error, &warning,
                                         reinterpret_cast<const unsigned char*>(bytes.data()), size,
-                                        folder.string())
+                                        files.folder.string())
           : loader.LoadASCIIFromString(&source, &error, &warning, bytes.data(), size,
-                                       folder.string());
+                                       files.folder.string());
   if (!loaded) return damaged(path, "", error.substr(0, 200));
-  return GltfImporter(source, path).run();
+  HP_ASSIGN_OR_RETURN(Model model, GltfImporter(source, path).run());
+  for (const auto& [missing, found] : files.similar)
+    model.warnings.push_back(similar_name(missing, found, path));
+  return model;
 } catch (const std::bad_alloc&) {
   throw;  // not a fault of the file
 } catch (const std::exception& e) {

@@ -1,5 +1,6 @@
 // The colours of glTF files, with a small builder of such files.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -289,6 +290,25 @@ TEST(GltfColour, BrokenAccessorsAreRefused) {
     file["accessors"][1] = accessor;
     expect_refused(folder.write("b.gltf", file.text()), "its COLOR_0");
   }
+}
+
+TEST(GltfNames, BuffersAndImagesMayDifferInCase) {
+  const Folder folder;
+  folder.write("Shape.BIN", tetrahedron_buffer());
+  folder.write("Skin.PNG", "not looked at");
+  const Model m = read(
+      folder.write("a.gltf", tetrahedron_gltf({{"uri", "shape.bin"},
+                                               {"attributes", ",\"TEXCOORD_0\":2"},
+                                               {"material", ",\"material\":0"},
+                                               {"extra", R"(,"materials":[{"pbrMetallicRoughness":{
+                                    "baseColorTexture":{"index":0}}}],"textures":[{"source":0}],
+                                    "images":[{"uri":"skin.png"}])"}})));
+  EXPECT_EQ(m.triangles.size(), 4U);
+  EXPECT_EQ(material_of(m).texture, folder.path() / "Skin.PNG");
+  EXPECT_EQ(
+      std::ranges::count_if(m.warnings, [](const Warning& w) { return w.code == "similar_name"; }),
+      2);
+  expect_refused(folder.write("b.gltf", tetrahedron_gltf({{"uri", "../shape.bin"}})), "");
 }
 
 TEST(GltfColour, TenThousandMaterialsAreReadAtOnce) {
