@@ -75,8 +75,8 @@ std::optional<fs::path> similar_file(const fs::path& missing, const fs::path& fo
 
 Warning similar_name(const fs::path& missing, const fs::path& found, const fs::path& model) {
   return {"similar_name",
-          fmt::format("there is no file {}: {} was taken for it, whose name differs in upper and "
-                      "lower case or in its Unicode form",
+          fmt::format("the file {} is missing; {} was used instead, because only upper and lower "
+                      "case or the Unicode form of the names differ",
                       one_line(missing.filename().string()), one_line(found.filename().string())),
           model.string()};
 }

@@ -21,7 +21,7 @@ namespace hydroprint::mesh {
 
 /// Finds a file whose name differs from that of a missing one only as name_key() allows: in the
 /// missing file's own folder, else in the model's folder.
-/// @return nullopt if there is none, or more than one
+/// @return nullopt if no file or several files have such a name
 [[nodiscard]] std::optional<std::filesystem::path> similar_file(
     const std::filesystem::path& missing, const std::filesystem::path& folder);
 

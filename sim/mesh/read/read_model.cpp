@@ -77,10 +77,9 @@ Status check_place(Model& model) {
   if (far_centre_mm(model.vertices).isZero()) return {};
   model.warnings.push_back(
       {"far_from_origin",
-       fmt::format(
-           "the model lies {} m from the origin, around ({:.3f}, {:.3f}, {:.3f}) mm: shapes "
-           "are computed relative to this point, and poses still refer to the origin",
-           three_digits(centre.norm() / 1000), centre.x(), centre.y(), centre.z()),
+       fmt::format("the model lies {} m from the origin, around ({:.3f}, {:.3f}, {:.3f}) mm, as "
+                   "scans in map coordinates do; poses refer to the origin of the file",
+                   three_digits(centre.norm() / 1000), centre.x(), centre.y(), centre.z()),
        model.path.string()});
   return {};
 }

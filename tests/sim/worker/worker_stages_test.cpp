@@ -106,7 +106,7 @@ TEST_F(Stages, OfAPlanComeAsListed) {
 }
 
 TEST_F(Stages, UnusedStagesAreLeftOut) {
-  // Without colours there is no ink.
+  // A model without colours has no ink, and so needs no stages for it.
   folder.write("bare.obj", sphere_obj(12, 12));
   const Arguments colourless = simulate({"--mesh", path("bare.obj"), "--artifacts", "map"}, false);
   const Arguments patient =

@@ -10,26 +10,15 @@
 
 #include "sim/image/io/colour.h"
 #include "sim/image/io/image_file.h"
+#include "tests/sim/image/io/image_files.h"
 #include "tests/sim/image/scenes.h"
 
 namespace hydroprint::image {
 namespace {
 
 using namespace testing;
-using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-template <class Value>
-void encode(const std::filesystem::path& path, ImageSpec spec, TypeDesc type,
-            const std::vector<Value>& values) {
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const auto output = ImageOutput::create(path.string());
-  ASSERT_TRUE(output);
-  ASSERT_TRUE(output->open(path.string(), spec)) << output->geterror();
-  ASSERT_TRUE(output->write_image(type, values.data())) << output->geterror();
-  ASSERT_TRUE(output->close());
-}
 
 ReadImage decode(const std::filesystem::path& path, const Decoding& decoding = {}) {
   auto read = read_image(path, {}, decoding);
@@ -38,12 +27,6 @@ ReadImage decode(const std::filesystem::path& path, const Decoding& decoding = {
     return {};
   }
   return std::move(*read);
-}
-
-std::array<int, 3> codes(const Texel& texel) {
-  return {srgb8_from_linear(static_cast<float>(texel.r) / 65535.0F),
-          srgb8_from_linear(static_cast<float>(texel.g) / 65535.0F),
-          srgb8_from_linear(static_cast<float>(texel.b) / 65535.0F)};
 }
 
 Eigen::Vector3d linear(const Texel& texel) {
@@ -123,13 +106,13 @@ TEST(Decoding, EveryOrientationShowsTheSamePicture) {
     }
     ImageSpec spec(width, height, 3, TypeDesc::UINT8);
     spec.attribute("Orientation", orientation);
-    encode(folder / "a.tif", spec, TypeDesc::UINT8, values);
+    write_with_oiio(folder / "a.tif", spec, TypeDesc::UINT8, values);
     const ReadImage read = decode(folder / "a.tif");
     ASSERT_EQ(read.image.width, kWidth) << orientation;
     ASSERT_EQ(read.image.height, kHeight) << orientation;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x)
-        EXPECT_EQ(codes(read.image.texels[static_cast<std::size_t>(x + kWidth * y)])[0], seen(x, y))
+        EXPECT_EQ(srgb8(read.image.texels[static_cast<std::size_t>(x + kWidth * y)])[0], seen(x, y))
             << orientation;
     EXPECT_EQ(decode(folder / "a.tif", {.as_stored = true}).image.width, width);
   }
@@ -143,12 +126,12 @@ TEST(Decoding, APhotoOfAPhoneIsTurned) {
     for (int x = 0; x < 32; ++x) values.insert(values.end(), 3, x < 16 ? 250 : 10);
   ImageSpec spec(32, 16, 3, TypeDesc::UINT8);
   spec.attribute("Orientation", 6);
-  encode(folder / "a.jpg", spec, TypeDesc::UINT8, values);
+  write_with_oiio(folder / "a.jpg", spec, TypeDesc::UINT8, values);
   const ReadImage read = decode(folder / "a.jpg");
   ASSERT_EQ(read.image.width, 16);
   ASSERT_EQ(read.image.height, 32);
-  EXPECT_GT(codes(read.image.texels[8])[1], 240);  // at the top: the stored left
-  EXPECT_LT(codes(read.image.texels[16 * 31 + 8])[1], 20);
+  EXPECT_GT(srgb8(read.image.texels[8])[1], 240);  // at the top: the stored left
+  EXPECT_LT(srgb8(read.image.texels[16 * 31 + 8])[1], 20);
 }
 
 TEST(Decoding, ProfilesAreConvertedToSrgb) {
@@ -157,7 +140,7 @@ TEST(Decoding, ProfilesAreConvertedToSrgb) {
   attach(spec, rgb_profile(kWide, 2.2));
   const Eigen::Matrix3d to_srgb = to_xyz(kSrgb).inverse() * to_xyz(kWide);
   for (const std::string name : {"a.png", "a.tif"}) {
-    encode(folder / name, spec, TypeDesc::UINT8, kColours);
+    write_with_oiio(folder / name, spec, TypeDesc::UINT8, kColours);
     const ReadImage read = decode(folder / name);
     EXPECT_TRUE(read.warnings.empty());
     for (std::size_t i = 0; i < 6; ++i) {
@@ -166,9 +149,9 @@ TEST(Decoding, ProfilesAreConvertedToSrgb) {
       const Eigen::Vector3f expected =
           srgb_from_linear(Eigen::Vector3f((to_srgb * wide).cast<float>()));
       for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(codes(read.image.texels[i])[k], 255 * expected[k], 1.01) << name << " " << i;
+        EXPECT_NEAR(srgb8(read.image.texels[i])[k], 255 * expected[k], 1.01) << name << " " << i;
     }
-    EXPECT_EQ(codes(decode(folder / name, {.as_stored = true}).image.texels[0]),
+    EXPECT_EQ(srgb8(decode(folder / name, {.as_stored = true}).image.texels[0]),
               (std::array<int, 3>{200, 120, 90}));
   }
 }
@@ -181,10 +164,10 @@ TEST(Decoding, AProfileOfSrgbChangesNoCode) {
       values.push_back(static_cast<std::uint8_t>(value));
   ImageSpec spec(256, 1, 3, TypeDesc::UINT8);
   attach(spec, bytes_of(cmsCreate_sRGBProfile()));
-  encode(folder / "a.png", spec, TypeDesc::UINT8, values);
+  write_with_oiio(folder / "a.png", spec, TypeDesc::UINT8, values);
   const ReadImage read = decode(folder / "a.png");
   for (int code = 0; code < 256; ++code)
-    EXPECT_EQ(codes(read.image.texels[static_cast<std::size_t>(code)]),
+    EXPECT_EQ(srgb8(read.image.texels[static_cast<std::size_t>(code)]),
               (std::array<int, 3>{code, 255 - code, code * 7 % 256}));
 }
 
@@ -194,7 +177,7 @@ TEST(Decoding, GreyProfilesAreConverted) {
   ImageSpec spec(3, 1, 1, TypeDesc::UINT8);
   attach(spec, bytes_of(cmsCreateGrayProfile(cmsD50_xyY(), curve)));
   cmsFreeToneCurve(curve);
-  encode(folder / "a.tif", spec, TypeDesc::UINT8, std::vector<std::uint8_t>{0, 64, 255});
+  write_with_oiio(folder / "a.tif", spec, TypeDesc::UINT8, std::vector<std::uint8_t>{0, 64, 255});
   const ReadImage read = decode(folder / "a.tif");
   EXPECT_TRUE(read.warnings.empty());
   EXPECT_NEAR(linear(read.image.texels[1]).y(), 64 / 255.0, 0.004);
@@ -211,11 +194,11 @@ TEST(Decoding, UnusableProfilesGiveAWarning) {
   for (const Profile& profile : {cut, grey}) {
     ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
     attach(spec, profile);
-    encode(folder / "a.tif", spec, TypeDesc::UINT8, kColours);
+    write_with_oiio(folder / "a.tif", spec, TypeDesc::UINT8, kColours);
     const ReadImage read = decode(folder / "a.tif");
     ASSERT_EQ(read.warnings.size(), 1U);
     EXPECT_EQ(read.warnings[0].code, "profile_ignored");
-    EXPECT_EQ(codes(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
+    EXPECT_EQ(srgb8(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
   }
 }
 
@@ -239,7 +222,7 @@ TEST(Decoding, ADamagedProfileOfAPngGivesAWarningAndNoGamma) {
   const TemporaryFolder folder;
   ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "Linear");
-  encode(folder / "a.png", spec, TypeDesc::UINT8, kColours);
+  write_with_oiio(folder / "a.png", spec, TypeDesc::UINT8, kColours);
   std::ifstream file(folder / "a.png", std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   constexpr std::size_t kAfterHeader = 33;
@@ -248,19 +231,19 @@ TEST(Decoding, ADamagedProfileOfAPngGivesAWarningAndNoGamma) {
   const ReadImage read = decode(folder / "b.png");
   ASSERT_EQ(read.warnings.size(), 1U);
   EXPECT_EQ(read.warnings[0].code, "profile_ignored");
-  EXPECT_EQ(codes(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
+  EXPECT_EQ(srgb8(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
 }
 
 TEST(Decoding, TheGammaOfAPngCounts) {
   const TemporaryFolder folder;
   ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "Linear");
-  encode(folder / "a.png", spec, TypeDesc::UINT8, kColours);
+  write_with_oiio(folder / "a.png", spec, TypeDesc::UINT8, kColours);
   const ReadImage read = decode(folder / "a.png");
   for (std::size_t i = 0; i < 6; ++i)
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(linear(read.image.texels[i])[k], kColours[3 * i + k] / 255.0, 1e-4);
-  EXPECT_EQ(codes(decode(folder / "a.png", {.as_stored = true}).image.texels[0]),
+  EXPECT_EQ(srgb8(decode(folder / "a.png", {.as_stored = true}).image.texels[0]),
             (std::array<int, 3>{200, 120, 90}));
 }
 
@@ -269,15 +252,15 @@ TEST(Decoding, AProfileWinsOverTheGamma) {
   ImageSpec spec(6, 1, 3, TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "Linear");
   attach(spec, bytes_of(cmsCreate_sRGBProfile()));
-  encode(folder / "a.png", spec, TypeDesc::UINT8, kColours);
-  EXPECT_EQ(codes(decode(folder / "a.png").image.texels[0]), (std::array<int, 3>{200, 120, 90}));
+  write_with_oiio(folder / "a.png", spec, TypeDesc::UINT8, kColours);
+  EXPECT_EQ(srgb8(decode(folder / "a.png").image.texels[0]), (std::array<int, 3>{200, 120, 90}));
 }
 
 TEST(Decoding, AlphaIsBlendedIgnoredOrCutOut) {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> values = {200, 120, 90, 255, 200, 120, 90, 128,
                                             200, 120, 90, 100, 200, 120, 90, 0};
-  encode(folder / "a.png", ImageSpec(4, 1, 4, TypeDesc::UINT8), TypeDesc::UINT8, values);
+  write_with_oiio(folder / "a.png", ImageSpec(4, 1, 4, TypeDesc::UINT8), TypeDesc::UINT8, values);
   const Eigen::Vector3d colour =
       linear_from_srgb(Eigen::Vector3f(200, 120, 90) / 255).cast<double>();
   const auto over_white = [&](double opacity, const Eigen::Vector3d& factor) {

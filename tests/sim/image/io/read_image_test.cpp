@@ -6,27 +6,15 @@
 
 #include "sim/image/io/colour.h"
 #include "sim/image/io/image_file.h"
+#include "tests/sim/image/io/image_files.h"
 #include "tests/sim/image/scenes.h"
 
 namespace hydroprint::image {
 namespace {
 
 using namespace testing;
-using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
-
-/// Writes an image with OpenImageIO, to test reading formats that this project never writes.
-template <class Value>
-void write(const std::filesystem::path& path, ImageSpec spec, TypeDesc type,
-           const std::vector<Value>& values) {
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  const auto output = ImageOutput::create(path.string());
-  ASSERT_TRUE(output);
-  ASSERT_TRUE(output->open(path.string(), spec)) << output->geterror();
-  ASSERT_TRUE(output->write_image(type, values.data())) << output->geterror();
-  ASSERT_TRUE(output->close());
-}
 
 std::vector<char> bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -41,12 +29,6 @@ RgbImage gradient(int width, int height) {
   return make_image(width, height, [](int x, int y) {
     return std::array<int, 3>{x * 3 % 256, y * 5 % 256, (x + y) * 7 % 256};
   });
-}
-
-std::array<int, 3> srgb8(const Texel& texel) {
-  return {srgb8_from_linear(static_cast<float>(texel.r) / 65535.0F),
-          srgb8_from_linear(static_cast<float>(texel.g) / 65535.0F),
-          srgb8_from_linear(static_cast<float>(texel.b) / 65535.0F)};
 }
 
 void expect_refused(const Result<ReadImage>& read, Code code, const std::string& name) {
@@ -67,10 +49,11 @@ TEST(ReadImage, PngAndTiffGiveTheirPixels) {
   const TemporaryFolder folder;
   const RgbImage image = gradient(70, 45);
   ASSERT_TRUE(write_png(folder / "a.png", image, 72));
-  write(folder / "a.tif", ImageSpec(70, 45, 3, TypeDesc::UINT8), TypeDesc::UINT8, image.rgb);
+  write_with_oiio(folder / "a.tif", ImageSpec(70, 45, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  image.rgb);
   ImageSpec tiled(70, 45, 3, TypeDesc::UINT8);
   tiled.tile_width = tiled.tile_height = 16;
-  write(folder / "tiled.tif", tiled, TypeDesc::UINT8, image.rgb);
+  write_with_oiio(folder / "tiled.tif", tiled, TypeDesc::UINT8, image.rgb);
   for (const std::string name : {"a.png", "a.tif", "tiled.tif"}) {
     const auto read = read_image(folder / name, {});
     ASSERT_TRUE(read) << read.error().message;
@@ -87,13 +70,15 @@ TEST(ReadImage, PngAndTiffGiveTheirPixels) {
 TEST(ReadImage, GreySixteenBitAndFloatImagesAreRead) {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> grey(64, 100);
-  write(folder / "grey.png", ImageSpec(8, 8, 1, TypeDesc::UINT8), TypeDesc::UINT8, grey);
+  write_with_oiio(folder / "grey.png", ImageSpec(8, 8, 1, TypeDesc::UINT8), TypeDesc::UINT8, grey);
   const std::vector<std::uint16_t> deep(64 * 3, 30000);
-  write(folder / "deep.png", ImageSpec(8, 8, 3, TypeDesc::UINT16), TypeDesc::UINT16, deep);
+  write_with_oiio(folder / "deep.png", ImageSpec(8, 8, 3, TypeDesc::UINT16), TypeDesc::UINT16,
+                  deep);
   std::vector<float> light(64 * 3, 0.25F);
   light[5] = std::nanf("");
   light[6] = 7;
-  write(folder / "light.tif", ImageSpec(8, 8, 3, TypeDesc::FLOAT), TypeDesc::FLOAT, light);
+  write_with_oiio(folder / "light.tif", ImageSpec(8, 8, 3, TypeDesc::FLOAT), TypeDesc::FLOAT,
+                  light);
 
   const auto a = read_image(folder / "grey.png", {});
   ASSERT_TRUE(a);
@@ -115,8 +100,8 @@ TEST(ReadImage, AlphaIsLaidOverWhiteInLinearLight) {
     for (const int value : {200, 0, 0, alpha}) rgba.push_back(static_cast<std::uint8_t>(value));
     for (const int value : {50, alpha}) grey_alpha.push_back(static_cast<std::uint8_t>(value));
   }
-  write(folder / "rgba.png", ImageSpec(2, 2, 4, TypeDesc::UINT8), TypeDesc::UINT8, rgba);
-  write(folder / "rgba.tif", ImageSpec(2, 2, 4, TypeDesc::UINT8), TypeDesc::UINT8, rgba);
+  write_with_oiio(folder / "rgba.png", ImageSpec(2, 2, 4, TypeDesc::UINT8), TypeDesc::UINT8, rgba);
+  write_with_oiio(folder / "rgba.tif", ImageSpec(2, 2, 4, TypeDesc::UINT8), TypeDesc::UINT8, rgba);
   for (const std::string name : {"rgba.png", "rgba.tif"}) {
     const auto read = read_image(folder / name, {});
     ASSERT_TRUE(read) << read.error().message;
@@ -131,7 +116,7 @@ TEST(ReadImage, AlphaIsLaidOverWhiteInLinearLight) {
   ImageSpec spec(2, 2, 2, TypeDesc::UINT8);
   spec.channelnames = {"Y", "A"};
   spec.alpha_channel = 1;
-  write(folder / "ya.png", spec, TypeDesc::UINT8, grey_alpha);
+  write_with_oiio(folder / "ya.png", spec, TypeDesc::UINT8, grey_alpha);
   const auto read = read_image(folder / "ya.png", {});
   ASSERT_TRUE(read);
   EXPECT_EQ(srgb8(read->image.texels[0]), (std::array<int, 3>{255, 255, 255}));
@@ -196,8 +181,8 @@ TEST(ReadImage, APngWithAFalseSizeIsRefusedBeforeDecoding) {
 
 TEST(ReadImage, AJpegWithATooLargeSizeIsRefusedBeforeDecoding) {
   const TemporaryFolder folder;
-  write(folder / "a.jpg", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8,
-        gradient(64, 64).rgb);
+  write_with_oiio(folder / "a.jpg", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  gradient(64, 64).rgb);
   ASSERT_TRUE(read_image(folder / "a.jpg", {}));
   std::vector<char> jpeg = bytes_of(folder / "a.jpg");
   for (std::size_t i = 2; i + 9 < jpeg.size(); ++i) {
@@ -215,8 +200,10 @@ TEST(ReadImage, EveryTruncationIsRefused) {
   const TemporaryFolder folder;
   const RgbImage image = gradient(64, 64);
   ASSERT_TRUE(write_png(folder / "a.png", image, 72));
-  write(folder / "a.jpg", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8, image.rgb);
-  write(folder / "a.tif", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8, image.rgb);
+  write_with_oiio(folder / "a.jpg", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  image.rgb);
+  write_with_oiio(folder / "a.tif", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  image.rgb);
   for (const std::string name : {"a.png", "a.jpg", "a.tif"}) {
     const std::vector<char> whole = bytes_of(folder / name);
     for (int part = 1; part < 12; ++part) {
@@ -242,8 +229,10 @@ TEST(ReadImage, FlippedBytesNeverCrash) {
   const TemporaryFolder folder;
   const RgbImage image = gradient(32, 32);
   ASSERT_TRUE(write_png(folder / "a.png", image, 72));
-  write(folder / "a.jpg", ImageSpec(32, 32, 3, TypeDesc::UINT8), TypeDesc::UINT8, image.rgb);
-  write(folder / "a.tif", ImageSpec(32, 32, 3, TypeDesc::UINT8), TypeDesc::UINT8, image.rgb);
+  write_with_oiio(folder / "a.jpg", ImageSpec(32, 32, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  image.rgb);
+  write_with_oiio(folder / "a.tif", ImageSpec(32, 32, 3, TypeDesc::UINT8), TypeDesc::UINT8,
+                  image.rgb);
   unsigned state = 1;
   for (const std::string name : {"a.png", "a.jpg", "a.tif"}) {
     const std::vector<char> whole = bytes_of(folder / name);
