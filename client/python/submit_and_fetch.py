@@ -97,12 +97,13 @@ def main():
     parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
     parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB that refers to no other files")
     parser.add_argument("--texture", help="texture of the mesh: PNG, JPEG or TIFF")
+    parser.add_argument("--project", help="projection of the texture, such as box, instead of texture coordinates")
     parser.add_argument("--dpi", type=float, help="resolution of the film image")
     parser.add_argument("--out", default=".", help="folder for film.png")
     arguments = parser.parse_args()
 
     with open_channel(arguments.server) as channel:
-        spec = spec_pb2.SimulateSpec(mesh=upload(channel, arguments.mesh), dpi=arguments.dpi)
+        spec = spec_pb2.SimulateSpec(mesh=upload(channel, arguments.mesh), dpi=arguments.dpi, project=arguments.project)
         if arguments.texture:
             spec.texture.CopyFrom(upload(channel, arguments.texture))
         job = wait(channel, submit(channel, spec))

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "daemon/platform/resource_names.h"
+#include "daemon/rest/bad_request.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/paint/check_paint.h"
 #include "sim/print/settings.h"
 
 namespace hydroprint::daemon {
@@ -46,6 +48,15 @@ template <class Film>
   return invalid_field(
       path + ".inertia",
       "Stokes flow has no inertia; leave this field out, or set the model to sheet");
+}
+
+/// Checks the paint of an object, and the short forms of one.
+/// @param path  of the message that has them, for errors: "simulate", "plan.object"
+template <class Object>
+[[nodiscard]] Status check_paint(const std::string& path, const Object& object) {
+  const auto violations = paint::check_fields_of(object, path);
+  if (violations.empty()) return {};
+  return tl::unexpected(rest::bad_request(violations));
 }
 
 /// Checks that the margins leave space for printing.

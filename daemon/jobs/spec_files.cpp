@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -66,7 +67,7 @@ std::string ambiguous_name(const std::vector<InputFile>& inputs) {
 
 Result<std::vector<InputFile>> input_files(const Message& spec, const std::string& path) {
   std::vector<InputFile> out;
-  const auto add = [&](const FieldDescriptor&, const std::string& place,
+  const auto add = [&](const FieldDescriptor& field, const std::string& place,
                        const v1::InputFile& file) -> Status {
     HP_RETURN_IF_ERROR(check_file_name(place + ".name", file.name()));
     const auto asset = parse_asset_name(file.asset());
@@ -75,7 +76,10 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
       error.message = place + ".asset: " + error.message;
       return tl::unexpected(std::move(error));
     }
-    out.push_back({file.name(), *asset});
+    const InputFile input{file.name(), *asset};
+    // Several layers of a paint may have the same picture.
+    const bool is_of_layer = field.containing_type() == v1::PaintLayer::descriptor();
+    if (!is_of_layer || std::ranges::find(out, input) == out.end()) out.push_back(input);
     return {};
   };
   HP_RETURN_IF_ERROR(each_file(spec, path, add));

@@ -84,9 +84,10 @@ Result<InkedFlow> ink_passes(const StokesPass& first, const FilmDrawing& draw, i
 
 }  // namespace
 
-FilmDrawing drawing_of(const image::Paint& paint, const film::Outline& outline) {
-  return [&](const mesh::Surface& surface, const std::vector<flow::MappedTriangle>& tiles,
-             double dpi, const Context& context) {
+FilmDrawing drawing_of(image::SurfacePaint paint, const film::Outline& outline) {
+  return [paint = std::move(paint), &outline](const mesh::Surface& surface,
+                                              const std::vector<flow::MappedTriangle>& tiles,
+                                              double dpi, const Context& context) {
     return image::film_image(surface, tiles, paint, outline, dpi, context);
   };
 }

@@ -6,7 +6,7 @@
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/image/io/rgb_image.h"
-#include "sim/image/texture/paint.h"
+#include "sim/image/layers/surface_paint.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/pipeline/stokes_pass.h"
 
@@ -18,7 +18,7 @@ using FilmDrawing = std::function<Result<image::RgbImage>(
     const Context& context)>;
 
 /// Draws the film image of this paint.
-[[nodiscard]] FilmDrawing drawing_of(const image::Paint& paint, const film::Outline& outline);
+[[nodiscard]] FilmDrawing drawing_of(image::SurfacePaint paint, const film::Outline& outline);
 
 /// Computes the dip of a film that carries the ink of its own film image: the two-step scheme of
 /// section 4.3, repeated. Each pass draws the film image for the flow so far, computes the

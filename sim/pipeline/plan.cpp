@@ -13,6 +13,7 @@
 #include "sim/base/run_beside.h"
 #include "sim/image/figures/pictures.h"
 #include "sim/image/film/film_image.h"
+#include "sim/image/layers/surface_paint.h"
 #include "sim/mesh/make_surface.h"
 #include "sim/pipeline/dip.h"
 #include "sim/pipeline/figures.h"
@@ -135,11 +136,13 @@ void warn_of_division(const Plan& plan, Warnings& warnings) {
                       "surface"});
 }
 
-Warnings warnings_of_plan(const Plan& plan, const PlanOptions& options) {
+Warnings warnings_of_plan(const Plan& plan, const image::SurfacePaint& paint,
+                          const PlanOptions& options) {
   Warnings out = plan.model.warnings;
   const auto add = [&](const Warnings& more) { out.insert(out.end(), more.begin(), more.end()); };
   add(plan.surface.warnings);
-  add(plan.paint.warnings());
+  add(plan.paint.warnings);
+  add(paint.warnings());
   add(warnings_of_profile(options.dip));
   warn_of_division(plan, out);
   for (std::size_t k = 0; k < plan.dips.size(); ++k) {
@@ -200,13 +203,14 @@ std::vector<double> point_areas_mm2(const mesh::Surface& surface) {
 
 Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
   Plan out;
+  const image::PaintSource source = paint_source(options.paint, options.texture);
   HP_ASSIGN_OR_RETURN(
       out.model,
-      read_inputs({options.mesh, options.scale, options.texture.has_value(), true}, context));
+      read_inputs({options.mesh, options.scale, !needs_own_colours(source), true}, context));
   HP_ASSIGN_OR_RETURN(out.surface,
                       mesh::make_surface(out.model, options.dip.surface_edge_mm, context));
   const auto paint = [&](const Context& reading) {
-    return read_paint(out.model, options.texture, reading);
+    return read_paint(out.model, source, options.immersions.front().X_FO, reading);
   };
   const auto solve = [&](const Context& behind) {
     return stokes_dips(out.surface, options, behind);
@@ -220,7 +224,9 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
       out.weights, plan::BlendWeights::create(out.surface, out.regions, options.blend_mm, context));
   out.dip_at = plan::dips_at_points(out.surface, out.regions.fragments);
   HP_ASSIGN_OR_RETURN(out.weights_at, out.weights.at_points(out.surface, context));
-  out.warnings = warnings_of_plan(out, options);
+  HP_ASSIGN_OR_RETURN(const image::SurfacePaint fitted,
+                      image::SurfacePaint::fit(out.paint, out.surface, context));
+  out.warnings = warnings_of_plan(out, fitted, options);
   return out;
 }
 
@@ -231,12 +237,14 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
   const image::Weight weight = [&](int triangle, const Eigen::Vector3d& at) {
     return static_cast<float>(plan.weights.of_dip(number, triangle, at));
   };
+  HP_ASSIGN_OR_RETURN(const image::SurfacePaint paint,
+                      image::SurfacePaint::fit(plan.paint, plan.surface, context));
   const auto draw = [&](const mesh::Surface& surface,
                         const std::vector<flow::MappedTriangle>& tiles, double dpi,
                         const Context& drawing) -> Result<DipImages> {
     DipImages images;
     HP_ASSIGN_OR_RETURN(images.complete,
-                        image::film_image(surface, tiles, plan.paint, outline, dpi, drawing));
+                        image::film_image(surface, tiles, paint, outline, dpi, drawing));
     HP_ASSIGN_OR_RETURN(images.mask, image::film_mask(tiles, weight, outline, dpi, drawing));
     images.film = image::seen_through(images.mask, images.complete);
     return images;

@@ -10,7 +10,7 @@
 #include "sim/flow/surface_map.h"
 #include "sim/image/figures/landed_ink.h"
 #include "sim/image/io/rgb_image.h"
-#include "sim/image/texture/paint.h"
+#include "sim/image/layers/layered_paint.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
 #include "sim/pipeline/pipeline.h"
@@ -30,6 +30,7 @@ struct PlanOptions {
   std::filesystem::path mesh;
   double scale = 1;                              ///< millimetres per model unit
   std::optional<std::filesystem::path> texture;  ///< nullopt: the model's own colours
+  std::optional<image::PaintSource> paint;       ///< instead of `texture`
   DipOptions dip;                     ///< of all dips; its pose, depth and ink are not used
   std::vector<Immersion> immersions;  ///< 1 to plan::kMaxDips
   double dpi = 300;
@@ -48,7 +49,7 @@ struct PlannedDip {
 struct Plan {
   mesh::Model model;
   mesh::Surface surface;  ///< shared by all dips
-  image::Paint paint;
+  image::LayeredPaint paint;
   std::vector<PlannedDip> dips;
   plan::Regions regions;
   plan::BlendWeights weights;

@@ -34,7 +34,7 @@ Status check_materials(const mesh::Model& model) {
     return fail(
         Code::kNotFound,
         warning.where + ": " + warning.message +
-            ". Put the complete material file into the model's folder, or specify a texture");
+            ". Put the complete material file into the model's folder, or specify a picture");
   }
   return {};
 }
@@ -47,7 +47,7 @@ Result<mesh::Model> read_model(const ModelInput& input, const Context& context) 
   const auto read = [&](const Context& reading) {
     return mesh::read_model(input.mesh, input.scale, reading);
   };
-  if (!input.images && !input.has_texture) return read(context);
+  if (!input.images && !input.has_paint) return read(context);
   const auto load = [](const Context&) -> Result<bool> {
     image::load_image_libraries();
     return true;
@@ -75,27 +75,55 @@ std::string no_colour_text(const mesh::Model& model) {
       model.path.string() + ": has no colour that was understood, so the film would stay blank. ";
   if (!model.not_understood.empty())
     out += "Found, but not understood: " + list_of(model.not_understood) + ". ";
-  if (model.corner_uvs.empty())
-    return out +
-           "Give the model colours or a texture in a 3D editor and export it again; a texture "
-           "file (--texture) needs texture coordinates, which it lacks";
-  return out + "Give a texture (--texture), or give the model colours in a 3D editor";
+  return out +
+         "Give a picture (--texture, and --project for how it lands) or a paint (--paint), or give "
+         "the model colours or a texture in a 3D editor";
 }
 
 }  // namespace
 
-Result<image::Paint> read_paint(const mesh::Model& model,
-                                const std::optional<std::filesystem::path>& texture,
-                                const Context& context) {
-  HP_ASSIGN_OR_RETURN(image::Paint paint, image::load_paint(model, texture, context));
+image::PaintSource paint_source(const std::optional<image::PaintSource>& paint,
+                                const std::optional<std::filesystem::path>& texture) {
+  if (paint) return *paint;
+  image::PaintSource out;
+  image::Layer& layer = out.layers.emplace_back();
+  if (texture) {
+    layer.name = texture->filename().string();
+    layer.picture = *texture;
+  } else {
+    layer.projection = image::Projection::kUv;
+  }
+  return out;
+}
+
+bool needs_own_colours(const image::PaintSource& paint) {
+  return std::ranges::any_of(paint.layers, [](const image::Layer& layer) {
+    return layer.picture.empty() && !layer.colour;
+  });
+}
+
+Result<image::LayeredPaint> read_any_paint(const mesh::Model& model,
+                                           const image::PaintSource& source,
+                                           const std::optional<Pose>& X_FO,
+                                           const Context& context) {
+  const Eigen::Matrix3d R_FO = X_FO.value_or(Pose::Identity()).linear();
+  return image::load_layers(model, source, R_FO, context);
+}
+
+Result<image::LayeredPaint> read_paint(const mesh::Model& model, const image::PaintSource& source,
+                                       const std::optional<Pose>& X_FO, const Context& context) {
+  HP_ASSIGN_OR_RETURN(image::LayeredPaint paint, read_any_paint(model, source, X_FO, context));
   if (paint.has_colour()) return paint;
-  return fail(Code::kInvalidArgument, no_colour_text(model));
+  if (needs_own_colours(source)) return fail(Code::kInvalidArgument, no_colour_text(model));
+  return fail(Code::kInvalidArgument,
+              "the paint is plain white, so the film would stay blank. Give it a picture or a "
+              "colour");
 }
 
 Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context) {
   context.progress("reading", 0);
   HP_ASSIGN_OR_RETURN(mesh::Model model, read_model(input, context));
-  if (input.images && !input.has_texture) HP_RETURN_IF_ERROR(check_materials(model));
+  if (input.images && !input.has_paint) HP_RETURN_IF_ERROR(check_materials(model));
   return model;
 }
 

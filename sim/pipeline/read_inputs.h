@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "sim/base/context.h"
+#include "sim/base/pose.h"
 #include "sim/base/result.h"
-#include "sim/image/texture/paint.h"
+#include "sim/image/layers/layered_paint.h"
 #include "sim/mesh/model.h"
 
 namespace hydroprint::pipeline {
@@ -13,21 +14,37 @@ namespace hydroprint::pipeline {
 /// The model to read, and what it is needed for.
 struct ModelInput {
   std::filesystem::path mesh;
-  double scale = 1;          ///< millimetres per model unit
-  bool has_texture = false;  ///< a texture is given, so the model's own colours are not needed
-  bool images = true;        ///< pictures will be drawn
+  double scale = 1;        ///< millimetres per model unit
+  bool has_paint = false;  ///< pictures are given, so the model's own colours are not needed
+  bool images = true;      ///< pictures will be drawn
 };
 
+/// Returns the paint that a texture stands for: one layer with that picture, or without a texture
+/// one with the model's own colours. A given paint is returned unchanged.
+[[nodiscard]] image::PaintSource paint_source(const std::optional<image::PaintSource>& paint,
+                                              const std::optional<std::filesystem::path>& texture);
+
+/// Returns whether a layer of the paint shows the model's own colours.
+[[nodiscard]] bool needs_own_colours(const image::PaintSource& paint);
+
 /// Reads a model and, if pictures will be needed, loads the image libraries at the same time.
-/// Returns the errors of mesh::read_model(). If no texture is given, also returns kNotFound for a
+/// Returns the errors of mesh::read_model(). If no picture is given, also returns kNotFound for a
 /// model whose material file or material is missing.
 [[nodiscard]] Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context);
 
-/// Loads a model's colours for a film image. Returns the errors of image::load_paint(), and
-/// kInvalidArgument for a model without any colour that was understood, because its film would stay
-/// blank; the message says what was found and not understood.
-[[nodiscard]] Result<image::Paint> read_paint(const mesh::Model& model,
-                                              const std::optional<std::filesystem::path>& texture,
-                                              const Context& context);
+/// Loads a model's paint for a film image. Returns the errors of image::load_layers(), and
+/// kInvalidArgument for a paint or model without any colour that was understood, because the film
+/// would stay blank; the message says what was found and not understood.
+/// @param X_FO  see DipOptions
+[[nodiscard]] Result<image::LayeredPaint> read_paint(const mesh::Model& model,
+                                                     const image::PaintSource& source,
+                                                     const std::optional<Pose>& X_FO,
+                                                     const Context& context);
+
+/// Same as above, but accepts a paint without colours.
+[[nodiscard]] Result<image::LayeredPaint> read_any_paint(const mesh::Model& model,
+                                                         const image::PaintSource& source,
+                                                         const std::optional<Pose>& X_FO,
+                                                         const Context& context);
 
 }  // namespace hydroprint::pipeline

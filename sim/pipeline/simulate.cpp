@@ -6,7 +6,7 @@
 #include "sim/image/figures/pictures.h"
 #include "sim/image/film/film_image.h"
 #include "sim/image/film/film_texture.h"
-#include "sim/image/texture/paint.h"
+#include "sim/image/layers/surface_paint.h"
 #include "sim/pipeline/dip.h"
 #include "sim/pipeline/ink_passes.h"
 #include "sim/pipeline/read_inputs.h"
@@ -20,7 +20,7 @@ constexpr double kFilmMapCell_mm = 1;  ///< part of the documented format of fil
 /// The first pass and, if colours are needed, the paint of the object.
 struct PaintedStokesPass {
   StokesPass pass;
-  std::optional<image::Paint> paint;
+  std::optional<image::LayeredPaint> paint;
 };
 
 DipOptions dip_options_of(const SimulateOptions& options) {
@@ -46,17 +46,18 @@ Result<PaintedStokesPass> run_painted_stokes_pass(const mesh::Model& model,
     return PaintedStokesPass{std::move(pass), std::nullopt};
   }
   const bool needs_colour = options.images && options.needs_colour;
+  const image::PaintSource source = paint_source(options.paint, options.texture);
   HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, [&](const Context& reading) {
-                        return needs_colour ? read_paint(model, options.texture, reading)
-                                            : image::load_paint(model, options.texture, reading);
+                        const auto& read = needs_colour ? read_paint : read_any_paint;
+                        return read(model, source, options.dip.X_FO, reading);
                       }));
   return PaintedStokesPass{std::move(both.first), std::move(both.second)};
 }
 
 /// @param paint  set if colours are needed
 Result<Dip> finish_dip(const mesh::Model& model, StokesPass first,
-                       const std::optional<image::Paint>& paint, const SimulateOptions& options,
-                       const Context& context) {
+                       const std::optional<image::SurfacePaint>& paint,
+                       const SimulateOptions& options, const Context& context) {
   const DipOptions dip_options = dip_options_of(options);
   const int passes = ink_passes_of(options);
   if (passes == 0 || !paint->has_colour()) {
@@ -66,7 +67,7 @@ Result<Dip> finish_dip(const mesh::Model& model, StokesPass first,
                    options.dpi, dip_options, context);
 }
 
-Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
+Result<SimulatedImages> draw(const Dip& dip, const image::SurfacePaint& paint,
                              const SimulateOptions& options, const Context& context) {
   SimulatedImages out;
   const film::Outline& film = options.dip.outline;
@@ -90,26 +91,38 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
   return out;
 }
 
-Warnings all_warnings(const Dip& dip, const std::optional<image::Paint>& paint) {
-  Warnings out = dip.warnings;
-  if (paint) out.insert(out.end(), paint->warnings().begin(), paint->warnings().end());
-  return out;
+/// Fits the paint, if there is one, to the surface.
+Result<std::optional<image::SurfacePaint>> fit(const std::optional<image::LayeredPaint>& paint,
+                                               const mesh::Surface& surface,
+                                               const Context& context) {
+  if (!paint) return std::nullopt;
+  HP_ASSIGN_OR_RETURN(image::SurfacePaint fitted,
+                      image::SurfacePaint::fit(*paint, surface, context));
+  return fitted;
 }
 
 }  // namespace
 
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
   Simulation out;
-  HP_ASSIGN_OR_RETURN(out.model, read_inputs({options.mesh, options.scale,
-                                              options.texture.has_value(), options.images},
-                                             context));
+  const bool has_paint = !needs_own_colours(paint_source(options.paint, options.texture));
+  HP_ASSIGN_OR_RETURN(
+      out.model, read_inputs({options.mesh, options.scale, has_paint, options.images}, context));
   HP_ASSIGN_OR_RETURN(auto painted, run_painted_stokes_pass(out.model, options, context));
   auto& [first, paint] = painted;
-  HP_ASSIGN_OR_RETURN(out.dip, finish_dip(out.model, std::move(first), paint, options, context));
+  HP_ASSIGN_OR_RETURN(const auto fitted, fit(paint, first.surface, context));
+  HP_ASSIGN_OR_RETURN(out.dip, finish_dip(out.model, std::move(first), fitted, options, context));
   if (options.images) {
-    HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, *paint, options, context));
+    HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, *fitted, options, context));
   }
-  out.warnings = all_warnings(out.dip, paint);
+  out.warnings = out.dip.warnings;
+  if (!paint) return out;
+  out.layers = paint->placed();
+  const auto add = [&out](const Warnings& more) {
+    out.warnings.insert(out.warnings.end(), more.begin(), more.end());
+  };
+  add(paint->warnings);
+  add(fitted->warnings());
   return out;
 }
 

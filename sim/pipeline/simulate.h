@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/image/film/film_map.h"
 #include "sim/image/io/rgb_image.h"
+#include "sim/image/layers/layered_paint.h"
 #include "sim/mesh/model.h"
 #include "sim/pipeline/pipeline.h"
 
@@ -17,6 +19,7 @@ struct SimulateOptions {
   std::filesystem::path mesh;
   double scale = 1;                              ///< millimetres per model unit
   std::optional<std::filesystem::path> texture;  ///< nullopt: the model's own colours
+  std::optional<image::PaintSource> paint;       ///< instead of `texture`
   DipOptions dip;
   double dpi = 300;
   /// Number of passes of the two-step scheme (section 4.3); 0: uses the ink in dip.ink. Only for
@@ -40,11 +43,12 @@ struct Simulation {
   mesh::Model model;
   Dip dip;
   std::optional<SimulatedImages> images;
-  Warnings warnings;  ///< warnings of all stages
+  std::vector<image::PlacedLayer> layers;  ///< of the paint; empty without images
+  Warnings warnings;                       ///< warnings of all stages
 };
 
 /// Runs all steps of section 4: model, paint, dip, film image, pictures. Returns the errors of its
-/// stages. If no texture is given, also returns kNotFound for a model whose material file or
+/// stages. If no picture is given, also returns kNotFound for a model whose material file or
 /// material is missing, because its colours would silently be white. Returns the errors of
 /// read_paint() unless `needs_colour` or `images` is false.
 [[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);

@@ -152,9 +152,9 @@ std::filesystem::path VerbParser::inputs() const {
                            : std::filesystem::path(*run_.spec).parent_path();
 }
 
-/// Fills the spec from the files named in the run flags, `--pose` and `--immersions`.
+/// Fills the spec from the files named in the run flags, `--pose`, `--immersions` and `--paint`.
 Status VerbParser::read_files() {
-  if (!run_.spec) return flags_.read_poses();
+  if (!run_.spec) return flags_.read_files();
   const auto from_flags = std::unique_ptr<Message>(spec_->New());
   from_flags->CopyFrom(*spec_);  // --threads
   spec_->Clear();

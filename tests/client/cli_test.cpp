@@ -214,6 +214,46 @@ TEST_F(Cli, BadDipsAreRefusedBeforeAnythingIsUploaded) {
   EXPECT_TRUE(client_json({"assets"}).at("assets").empty());
 }
 
+TEST_F(Cli, APaintIsSentWithItsPicturesEachOnce) {
+  start();
+  folder_.write("fur.png", "fur");
+  const std::string paint = folder_.write("paint.json", R"({"base_colour": "#102030", "layers": [
+      {"picture": "fur.png", "projection": "box", "size_mm": 40},
+      {"picture": {"name": "fur.png"}, "projection": "decal", "name": "eyes"}]})");
+  const json job = client_json(
+      {"submit", "simulate", "--mesh", mesh("v 0 0 0"), "--paint", paint, "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  for (const json& spec : {job.at("simulate"), given_spec(content(out() / "report.json"))}) {
+    EXPECT_EQ(spec.at("paint").at("baseColour"), "#102030");
+    const json& layers = spec.at("paint").at("layers");
+    ASSERT_EQ(layers.size(), 2U);
+    EXPECT_EQ(layers[0].at("picture").at("name"), "fur.png");
+    EXPECT_EQ(layers[0].at("picture"), layers[1].at("picture"));
+    EXPECT_EQ(layers[0].at("sizeMm"), 40);
+    EXPECT_EQ(layers[1].at("name"), "eyes");
+  }
+  const json short_form = client_json({"submit", "simulate", "--mesh", mesh("v 0 0 0"), "--texture",
+                                       (folder_.path() / "fur.png").string(), "--project", "dip",
+                                       "--project-turn-deg", "90"});
+  EXPECT_EQ(short_form.at("simulate").at("project"), "dip");
+  EXPECT_EQ(short_form.at("simulate").at("projectTurnDeg"), 90);
+}
+
+TEST_F(Cli, BadPaintsAreRefusedBeforeAnythingIsUploaded) {
+  start();
+  const auto simulate = [&](const std::string& paint) {
+    return Arguments{"submit",        "simulate", "--mesh",
+                     mesh("v 0 0 0"), "--paint",  folder_.write("paint.json", paint).string()};
+  };
+  expect_error(simulate("{"), 3, "paint.json");
+  expect_error(simulate(R"({"layers": [{"picture": "absent.png"}]})"), 3,
+               "absent.png: no such file");
+  expect_error(simulate(R"({"layers": [{"colour": "#000000", "projection": "decal",
+                            "direction": [0, 0, 0]}]})"),
+               3, "paint.json: layers[0].direction: has no length");
+  EXPECT_TRUE(client_json({"assets"}).at("assets").empty());
+}
+
 TEST_F(Cli, FitUsesTheMeasuredPoints) {
   start();
   const json job =

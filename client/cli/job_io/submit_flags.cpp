@@ -1,11 +1,13 @@
 #include "client/cli/job_io/submit_flags.h"
 
 #include <algorithm>
+#include <map>
 
 #include "client/cli/job_io/spec_fields.h"
 #include "client/pose_file.h"
 #include "hydroprint/v1/field_rules.pb.h"
 #include "proto/flags/field_flag.h"
+#include "proto/paint/paint_file.h"
 #include "proto/rules/field_rules.h"
 #include "sim/base/immersions_file.h"
 
@@ -24,6 +26,10 @@ bool is_film(const FieldDescriptor& field) { return rules_of(field).format() == 
 
 bool is_list_of_dips(const FieldDescriptor& field) {
   return field.is_repeated() && field.message_type() == v1::DipSetup::descriptor();
+}
+
+bool is_paint(const FieldDescriptor& field) {
+  return field.message_type() == v1::Paint::descriptor();
 }
 
 // Lists of files have no flag: their files are found through the references in other files.
@@ -86,12 +92,30 @@ Status take_dips(const FieldDescriptor& field, const std::string& file, Message&
   return {};
 }
 
+// Adds the pictures of a paint, each once.
+Status take_paint(const FieldDescriptor& field, const std::string& file, Inputs& inputs,
+                  Message& holder) {
+  HP_ASSIGN_OR_RETURN(v1::Paint paint, paint::read_paint_file(file));
+  std::map<std::string, v1::InputFile> added;
+  for (v1::PaintLayer& layer : *paint.mutable_layers()) {
+    if (!layer.has_picture()) continue;
+    const std::string path = layer.picture().name();
+    if (!added.contains(path)) {
+      HP_ASSIGN_OR_RETURN(added[path], inputs.add(path));
+    }
+    *layer.mutable_picture() = added[path];
+  }
+  holder.GetReflection()->MutableMessage(&holder, &field)->CopyFrom(paint);
+  return {};
+}
+
 Status take_file(const FieldDescriptor& field, const std::string& text, Inputs& inputs,
                  Message& spec) {
   if (is_film(field)) return take_film(field, text, inputs, spec);
   if (is_list_of_dips(field)) return take_dips(field, text, spec);
   Message& holder = flags::holder_of(spec, field);
   if (field.name() == "mesh") return inputs.add_model(text, holder);
+  if (is_paint(field)) return take_paint(field, text, inputs, holder);
   if (field.message_type() != v1::Pose::descriptor())
     return inputs.add_to(holder, field.name(), text);
   HP_ASSIGN_OR_RETURN(const v1::Pose pose, client::read_pose_file(text));
@@ -128,6 +152,12 @@ Result<v1::Job> upload_inputs(Inputs& inputs, const SubmitOptions& options) {
   std::stable_sort(files.begin(), files.end(), [&](const auto& a, const auto& b) {
     return upload_order(*a.first, spec) < upload_order(*b.first, spec);
   });
+  // An error in a paint is reported before anything is uploaded.
+  for (const auto& [field, text] : files) {
+    if (!is_paint(*field)) continue;
+    if (const auto paint = paint::read_paint_file(text); !paint)
+      return tl::unexpected(paint.error());
+  }
   for (const auto& [field, text] : files)
     HP_RETURN_IF_ERROR(take_file(*field, text, inputs, spec_of(job)));
   return job;

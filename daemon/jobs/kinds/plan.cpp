@@ -10,6 +10,7 @@ class PlanKind final : public KindOf<v1::PlanSpec> {
   [[nodiscard]] Status check_spec(const v1::PlanSpec& spec) const override {
     const std::string film = field().name() + ".film";
     HP_RETURN_IF_ERROR(check_polygon(film, spec.film(), spec.object().extra_files()));
+    HP_RETURN_IF_ERROR(check_paint(field().name() + ".object", spec.object()));
     return check_inertia(film, spec.film());
   }
 };

@@ -21,6 +21,7 @@ class SimulateKind final : public KindOf<v1::SimulateSpec> {
 
   [[nodiscard]] Status check_spec(const v1::SimulateSpec& spec) const override {
     HP_RETURN_IF_ERROR(check_polygon(field().name(), spec));
+    HP_RETURN_IF_ERROR(check_paint(field().name(), spec));
     return check_inertia(field().name(), spec);
   }
 

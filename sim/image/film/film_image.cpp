@@ -296,30 +296,17 @@ FilmGrid film_grid(const film::Outline& outline, double pitch_mm) {
   return grid;
 }
 
-std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
-                                                 const flow::MappedTriangle& tile) {
-  std::array<Eigen::Vector3d, 3> out;
-  const auto& source = surface.source_barycentric[tile.triangle];
-  for (int i = 0; i < 3; ++i) {
-    out[i].setZero();
-    for (int k = 0; k < 3; ++k) {
-      out[i] += static_cast<double>(tile.barycentric[i][k]) * source[k].cast<double>();
-    }
-  }
-  return out;
-}
-
 Result<RgbImage> film_image(const mesh::Surface& surface,
-                            const std::vector<flow::MappedTriangle>& tiles, const Paint& paint,
-                            const film::Outline& outline, double dpi, const Context& context) {
+                            const std::vector<flow::MappedTriangle>& tiles,
+                            const SurfacePaint& paint, const film::Outline& outline, double dpi,
+                            const Context& context) {
   HP_CHECK(surface.source_triangle.size() == surface.triangles.size());
   HP_RETURN_IF_ERROR(check_size(outline, dpi));
   const FilmGrid grid = film_grid(outline, 25.4 / dpi);
   RgbImage image = blank_image(grid, 255);
   if (!paint.has_colour()) return image;
   const auto brush_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
-    return paint.brush(surface.source_triangle[tile.triangle], at,
-                       model_barycentric(surface, tile));
+    return paint.brush(surface, tile, at);
   };
   HP_RETURN_IF_ERROR(paint_tiles(tiles, grid, context, brush_of,
                                  [&image](const Block& block) { block.resolve_light(image); }));

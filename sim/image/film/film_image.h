@@ -9,8 +9,7 @@
 #include "sim/film/outline.h"
 #include "sim/flow/surface_map.h"
 #include "sim/image/io/rgb_image.h"
-#include "sim/image/texture/paint.h"
-#include "sim/mesh/model.h"
+#include "sim/image/layers/surface_paint.h"
 #include "sim/mesh/surface.h"
 
 namespace hydroprint::image {
@@ -32,10 +31,6 @@ struct FilmGrid {
 /// pitch, rounded, at least 1.
 [[nodiscard]] FilmGrid film_grid(const film::Outline& outline, double pitch_mm);
 
-/// Returns a tile's corners in barycentric coordinates of the model triangle that contains it.
-[[nodiscard]] std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
-                                                               const flow::MappedTriangle& tile);
-
 inline constexpr double kMinDpi = 20, kMaxDpi = 2400;
 inline constexpr double kMaxFilmImage_px = 400e6;
 
@@ -47,7 +42,7 @@ inline constexpr double kMaxFilmImage_px = 400e6;
 /// for dpi outside [kMinDpi, kMaxDpi] and images larger than kMaxFilmImage_px.
 [[nodiscard]] Result<RgbImage> film_image(const mesh::Surface& surface,
                                           const std::vector<flow::MappedTriangle>& tiles,
-                                          const Paint& paint, const film::Outline& outline,
+                                          const SurfacePaint& paint, const film::Outline& outline,
                                           double dpi, const Context& context);
 
 /// Returns how much of the colour of a surface point a film prints, in [0, 1]. Called from several

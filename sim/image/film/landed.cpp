@@ -8,6 +8,7 @@
 #include "sim/base/check.h"
 #include "sim/image/film/film_image.h"
 #include "sim/image/io/colour.h"
+#include "sim/image/layers/surface_paint.h"
 #include "sim/image/texture/raster.h"
 
 namespace hydroprint::image {

@@ -122,20 +122,20 @@ void Paint::tint(int model_triangle, const Corners& at,
 /// Builds a Paint step by step.
 class PaintLoader {
  public:
-  PaintLoader(const mesh::Model& model, const Context& context)
-      : model_(model), context_(context) {}
-
-  Result<Paint> load(const std::optional<std::filesystem::path>& texture) {
+  PaintLoader(const mesh::Model& model, const Context& context) : model_(model), context_(context) {
     paint_.ink_of_triangle_.assign(model_.triangles.size(), 0);
-    HP_RETURN_IF_ERROR(texture ? lay_texture(*texture) : gather_materials());
+  }
+
+  Result<Paint> load(const std::optional<std::filesystem::path>& texture, const TextureUse& use) {
+    HP_RETURN_IF_ERROR(texture ? lay_texture(*texture, use) : gather_materials());
     HP_RETURN_IF_ERROR(build_textures());
-    const bool surface_shows = !all_white(paint_.vertex_colours_, paint_.triangle_colours_);
-    paint_.has_colour_ = std::ranges::any_of(paint_.ink_of_triangle_, [&](int index) {
-      const Ink& ink = paint_.inks_[index];
-      return ink.is_known &&
-             (ink.texture >= 0 || !ink.colour.isOnes() || (ink.of_surface && surface_shows));
-    });
-    return std::move(paint_);
+    return finish();
+  }
+
+  /// Takes the colours of vertices or triangles alone.
+  Paint load_surface() {
+    paint_.inks_ = {fallback()};
+    return finish();
   }
 
  private:
@@ -144,6 +144,16 @@ class PaintLoader {
     Texels texels;
     mesh::Wrap wrap_u, wrap_v;
   };
+
+  Paint finish() {
+    const bool surface_shows = !all_white(paint_.vertex_colours_, paint_.triangle_colours_);
+    paint_.has_colour_ = std::ranges::any_of(paint_.ink_of_triangle_, [&](int index) {
+      const Ink& ink = paint_.inks_[index];
+      return ink.is_known &&
+             (ink.texture >= 0 || !ink.colour.isOnes() || (ink.of_surface && surface_shows));
+    });
+    return std::move(paint_);
+  }
 
   void warn(std::string code, std::string message, std::string where) {
     paint_.warnings_.push_back({std::move(code), std::move(message), std::move(where)});
@@ -154,17 +164,18 @@ class PaintLoader {
   }
 
   /// Applies --texture FILE to all triangles that have coordinates.
-  Status lay_texture(const std::filesystem::path& path) {
+  Status lay_texture(const std::filesystem::path& path, const TextureUse& use) {
     const auto& uvs = model_.corner_uvs;
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {
       return fail(Code::kInvalidArgument,
                   path.string() + ": cannot be applied to " + model_.path.string() +
-                      ", which has no texture coordinates (UVs). Unwrap the model in a 3D editor, "
-                      "or omit the texture");
+                      ", which has no texture coordinates (UVs). Choose a projection (--project), "
+                      "or unwrap the model in a 3D editor");
     }
-    HP_ASSIGN_OR_RETURN(ReadImage read, read_image(path, context_));
-    HP_ASSIGN_OR_RETURN(const int index, add_texture(std::move(read), mesh::Wrap::kRepeat,
-                                                     mesh::Wrap::kRepeat, path.string()));
+    HP_ASSIGN_OR_RETURN(ReadImage read, read_image(path, context_, use.decoding));
+    paint_.shows_white_ = read.had_alpha;
+    const mesh::Wrap wrap = use.repeats ? mesh::Wrap::kRepeat : mesh::Wrap::kClamp;
+    HP_ASSIGN_OR_RETURN(const int index, add_texture(std::move(read), wrap, wrap, path.string()));
     paint_.inks_ = {Ink{}, Ink{true, Eigen::Vector3f::Ones(), index, false}};
     int without = 0;
     for (std::size_t t = 0; t < model_.triangles.size(); ++t) {
@@ -172,6 +183,7 @@ class PaintLoader {
       without += has_uvs(t) ? 0 : 1;
     }
     if (without > 0) {
+      paint_.shows_white_ = true;
       warn("uvs_missing_in_part",
            fmt::format("{} triangles have no texture coordinates and stay white", without),
            model_.path.string());
@@ -403,8 +415,12 @@ class PaintLoader {
 
 Result<Paint> load_paint(const mesh::Model& model,
                          const std::optional<std::filesystem::path>& texture,
-                         const Context& context) {
-  return PaintLoader(model, context).load(texture);
+                         const Context& context, const TextureUse& use) {
+  return PaintLoader(model, context).load(texture, use);
+}
+
+Paint load_surface_colours(const mesh::Model& model) {
+  return PaintLoader(model, Context{}).load_surface();
 }
 
 }  // namespace hydroprint::image

@@ -51,6 +51,9 @@ class Paint {
   /// False if the film would stay white everywhere: the model defines no colours, or only plain
   /// white without a texture.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
+  /// True if `texture` was given and shows white in places: it is transparent there, or triangles
+  /// have no coordinates.
+  [[nodiscard]] bool shows_white() const { return shows_white_; }
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
   /// @param model_triangle  index into Model::triangles
@@ -74,7 +77,7 @@ class Paint {
   void tint(int model_triangle, const Corners& at,
             const std::array<Eigen::Vector3d, 3>& barycentric, Brush& brush) const;
 
-  bool has_colour_ = false;
+  bool has_colour_ = false, shows_white_ = false;
   Warnings warnings_;
   std::vector<Ink> inks_;
   std::vector<int> ink_of_triangle_;
@@ -86,13 +89,22 @@ class Paint {
   std::vector<Eigen::Vector3f> triangle_colours_;  ///< linear; empty: not used
 };
 
+/// How a texture is read and continued beyond its edges.
+struct TextureUse {
+  Decoding decoding;
+  bool repeats = true;  ///< false: its edge continues
+};
+
 /// Loads a model's colours: `texture` on its UVs if given, otherwise its materials' textures and
 /// colours, otherwise those of its vertices or triangles; for materials that multiply, their
-/// product. Returns the errors of read_image(). Other errors name
+/// product. `use` applies to `texture` only. Returns the errors of read_image(). Other errors name
 /// file and remedy: kInvalidArgument for a texture on a model without UVs, kNotFound for a
 /// material's missing texture, kOutOfRange for more than kMaxImageArea_px in all textures together.
 [[nodiscard]] Result<Paint> load_paint(const mesh::Model& model,
                                        const std::optional<std::filesystem::path>& texture,
-                                       const Context& context);
+                                       const Context& context, const TextureUse& use = {});
+
+/// Takes only the colours of the model's vertices, otherwise those of its triangles.
+[[nodiscard]] Paint load_surface_colours(const mesh::Model& model);
 
 }  // namespace hydroprint::image

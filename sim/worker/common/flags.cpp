@@ -9,6 +9,7 @@
 #include "hydroprint/v1/field_rules.pb.h"
 #include "hydroprint/v1/spec.pb.h"
 #include "proto/flags/field_flag.h"
+#include "proto/paint/paint_file.h"
 #include "proto/rules/field_rules.h"
 #include "sim/base/immersions_file.h"
 #include "sim/worker/common/fields.h"
@@ -31,6 +32,10 @@ bool is_list_of_dips(const FieldDescriptor& field) {
   return field.is_repeated() && field.message_type() == v1::DipSetup::descriptor();
 }
 
+bool is_paint(const FieldDescriptor& field) {
+  return field.message_type() == v1::Paint::descriptor();
+}
+
 /// Returns whether the worker has a flag for a field.
 bool has_flag(const FieldDescriptor& field) {
   const bool is_list_of_files = field.is_repeated() && field.message_type() != nullptr;
@@ -46,9 +51,16 @@ const FieldDescriptor& Flags::field(const std::string& name) const {
 
 void Flags::add_file(const FieldDescriptor& field) {
   const bool holds_poses = is_pose(field) || is_list_of_dips(field);
-  Message& holder = flags::holder_of(spec_, field);
-  const auto take = [this, &holder, &field, holds_poses](const std::string& path) {
-    holds_poses ? static_cast<void>(pose_file_ = path) : set_file(holder, field, path);
+  const auto take = [this, &field, holds_poses](const std::string& path) {
+    if (holds_poses) {
+      pose_file_ = path;
+    } else if (is_paint(field)) {
+      paint_file_ = path;
+      Message& holder = flags::holder_of(spec_, field);
+      paint_ = holder.GetReflection()->MutableMessage(&holder, &field);
+    } else {
+      set_file(flags::holder_of(spec_, field), field, path);
+    }
   };
   app_.add_option_function<std::string>(flags::flag_of(field), take, rules::flag_help(field))
       ->type_name("FILE");
@@ -89,6 +101,14 @@ void Flags::require_folders(const std::string& name, const std::string& file) {
   app_.add_option_function<std::vector<std::string>>(flags::flag_of(to), add, rules::flag_help(to))
       ->required()
       ->type_name("DIR");
+}
+
+Status Flags::read_files() {
+  if (paint_ != nullptr) {
+    HP_ASSIGN_OR_RETURN(const v1::Paint paint, paint::read_paint_file(paint_file_));
+    paint_->CopyFrom(paint);
+  }
+  return read_poses();
 }
 
 Status Flags::read_poses() {

@@ -31,22 +31,24 @@ class Flags {
   /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
   void require_folders(const std::string& field, const std::string& file);
 
-  /// Reads the pose from the file of `--pose`, or the dips from that of `--immersions`, if the flag
-  /// was given. Called after parsing. Returns the errors of read_pose_file() and
-  /// read_immersions_file().
-  [[nodiscard]] Status read_poses();
+  /// Reads the pose from the file of `--pose`, the dips from that of `--immersions` and the paint
+  /// from that of `--paint`, if the flag was given. Called after parsing. Returns the errors of
+  /// read_pose_file(), read_immersions_file() and read_paint_file().
+  [[nodiscard]] Status read_files();
   /// The file of `--pose` or `--immersions`.
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
 
  private:
   void add_field(const google::protobuf::FieldDescriptor& field);
   void add_file(const google::protobuf::FieldDescriptor& field);
+  [[nodiscard]] Status read_poses();
   void require(const google::protobuf::FieldDescriptor& field);
   [[nodiscard]] const google::protobuf::FieldDescriptor& field(const std::string& name) const;
 
   CLI::App& app_;
   google::protobuf::Message& spec_;
-  std::filesystem::path pose_file_;
+  std::filesystem::path pose_file_, paint_file_;
+  google::protobuf::Message* paint_ = nullptr;  ///< receives the paint; null: no such flag
 };
 
 /// Adds the flags of all fields.

@@ -16,6 +16,7 @@
 #include "sim/worker/common/artifact_writer.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/film_flow.h"
+#include "sim/worker/common/paint.h"
 #include "sim/worker/common/surface_ply.h"
 #include "sim/worker/verbs/plan_report.h"
 
@@ -40,7 +41,7 @@ Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 can
 /// Options of a plan: those of one dip without its pose and depth, and the dips.
 struct PlanVerbOptions {
   FlowOptions flow;
-  std::filesystem::path texture;          ///< empty: the model's own colours
+  PaintOptions paint;
   std::filesystem::path immersions_file;  ///< empty: not from a file
   std::vector<pipeline::Immersion> immersions;
   Warnings pose_warnings;
@@ -94,7 +95,7 @@ Status read_immersions(const v1::PlanSpec& spec, PlanVerbOptions& out) {
 Result<PlanVerbOptions> read_options(const v1::PlanSpec& spec, const InputFolder& inputs) {
   PlanVerbOptions out;
   HP_ASSIGN_OR_RETURN(out.flow, read_flow_options(spec, inputs));
-  out.texture = inputs.path(spec.object().texture());
+  HP_ASSIGN_OR_RETURN(out.paint, paint_options(spec.object(), inputs, "object"));
   out.immersions_file = inputs.pose_file();
   HP_RETURN_IF_ERROR(read_immersions(spec, out));
   if (spec.has_blend_mm()) out.blend_mm = spec.blend_mm();
@@ -122,11 +123,12 @@ class PlanTask final : public ArtifactTask {
  protected:
   [[nodiscard]] std::vector<InputPath> input_files() const override {
     const ObjectOptions& object = options_.flow.dip.object;
-    return {{"mesh", object.mesh},
-            {"texture", options_.texture},
-            {"immersions", options_.immersions_file},
-            {"profile", options_.flow.dip.profile},
-            film_file(object.film)};
+    std::vector<InputPath> out = {{"mesh", object.mesh}};
+    out.insert(out.end(), options_.paint.files.begin(), options_.paint.files.end());
+    out.insert(out.end(), {{"immersions", options_.immersions_file},
+                           {"profile", options_.flow.dip.profile},
+                           film_file(object.film)});
+    return out;
   }
 
   [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
@@ -156,7 +158,7 @@ pipeline::PlanOptions PlanTask::pipeline_options(pipeline::DipOptions dip) const
   pipeline::PlanOptions out;
   out.mesh = flow.dip.object.mesh;
   out.scale = flow.dip.object.scale;
-  if (!options_.texture.empty()) out.texture = options_.texture;
+  out.paint = options_.paint.source;
   out.dip = std::move(dip);
   out.immersions = options_.immersions;
   out.dpi = flow.dpi;
@@ -219,7 +221,8 @@ Status PlanTask::compute(OutFolder& folder, Report& report, const Context& conte
   HP_ASSIGN_OR_RETURN(const pipeline::Plan plan, pipeline::make_plan(options, context));
   report.warnings = options_.pose_warnings;
   report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
-  if (options_.texture.empty()) HP_RETURN_IF_ERROR(add_material_textures(plan.model, report));
+  if (options_.paint.shows_own_colours())
+    HP_RETURN_IF_ERROR(add_material_textures(plan.model, report));
 
   *report_.mutable_parameters() = options_.plan;
   report_.mutable_parameters()->set_mesh_sha256(report.inputs.front().digest.sha256);

@@ -12,12 +12,14 @@
 #include "sim/worker/common/artifact_writer.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/film_flow.h"
+#include "sim/worker/common/paint.h"
 
 namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
   hydroprint-worker simulate --mesh spot.obj --texture spot.png --scale 50 --out spot-film
+  hydroprint-worker simulate --mesh cat.stl --texture fur.png --project box --project-size-mm 60 --out cat-film
   hydroprint-worker simulate --mesh mug.obj --scale 10 --pose pose.json --film A3 --dpi 600 --out mug
   hydroprint-worker simulate --mesh ball.ply --film circle:105 --depth-mm 40 --artifacts map --out map
 
@@ -25,13 +27,13 @@ Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 can
 
 struct SimulateOptions {
   FlowOptions flow;
-  std::filesystem::path texture;  ///< empty: the model's own colours
+  PaintOptions paint;
 };
 
 Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFolder& inputs) {
   SimulateOptions out;
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
-  out.texture = inputs.path(spec.texture());
+  HP_ASSIGN_OR_RETURN(out.paint, paint_options(spec, inputs));
   return out;
 }
 
@@ -51,18 +53,21 @@ class Simulate final : public ArtifactTask {
  protected:
   [[nodiscard]] std::vector<InputPath> input_files() const override {
     const ObjectOptions& object = options_.flow.dip.object;
-    return {{"mesh", object.mesh},
-            {"texture", options_.texture},
-            {"pose", object.pose_file},
-            {"profile", options_.flow.dip.profile},
-            {"ink_image", options_.flow.ink_image},
-            film_file(object.film)};
+    std::vector<InputPath> out = {{"mesh", object.mesh}};
+    out.insert(out.end(), options_.paint.files.begin(), options_.paint.files.end());
+    out.insert(out.end(), {{"pose", object.pose_file},
+                           {"profile", options_.flow.dip.profile},
+                           {"ink_image", options_.flow.ink_image},
+                           film_file(object.film)});
+    return out;
   }
 
   [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
 
   [[nodiscard]] Json findings(const Report& report) const override {
-    return dip_.report(options_.flow, film_image_px_, report.threads);
+    Json out = dip_.report(options_.flow, film_image_px_, report.threads);
+    out["layers"] = layers_json(layers_);
+    return out;
   }
   [[nodiscard]] Json figures() const override { return dip_.figures(); }
   [[nodiscard]] std::string summary(const Report& report,
@@ -77,6 +82,7 @@ class Simulate final : public ArtifactTask {
 
   SimulateOptions options_;
   DipFindings dip_;
+  std::vector<image::PlacedLayer> layers_;
   std::array<int, 2> film_image_px_ = {0, 0};
 };
 
@@ -85,7 +91,7 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
   pipeline::SimulateOptions out;
   out.mesh = flow.dip.object.mesh;
   out.scale = flow.dip.object.scale;
-  if (!options_.texture.empty()) out.texture = options_.texture;
+  out.paint = options_.paint.source;
   out.dip = std::move(dip);
   out.dpi = flow.dpi;
   out.ink_passes = flow.passes();
@@ -123,7 +129,8 @@ Status Simulate::compute(OutFolder& folder, Report& report, const Context& conte
   report.warnings = simulation.warnings;
   const Warnings& pose = options_.flow.dip.object.pose_warnings;
   report.warnings.insert(report.warnings.begin(), pose.begin(), pose.end());
-  if (!options_.flow.map_only && options_.texture.empty())
+  layers_ = simulation.layers;
+  if (!options_.flow.map_only && options_.paint.shows_own_colours())
     HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
   if (simulation.images) {
     film_image_px_ = {simulation.images->film.width, simulation.images->film.height};

@@ -192,6 +192,39 @@ TEST(Spec, WrongFilesAreNamedWithTheirPlaceInThePlan) {
       << request.error().message;
 }
 
+TEST(Spec, PaintsAreCheckedWhereverTheyAre) {
+  v1::Job job;
+  v1::SimulateSpec& spec = *job.mutable_simulate();
+  set_file(*spec.mutable_mesh(), "cat.stl");
+  v1::PaintLayer& layer = *spec.mutable_paint()->add_layers();
+  EXPECT_EQ(refused_field(job), "simulate.paint.layers[0].picture");
+  set_file(*layer.mutable_picture(), "fur.png");
+  EXPECT_EQ(refused_field(job), "accepted");
+  // The same picture in two layers is one file.
+  *spec.mutable_paint()->add_layers() = layer;
+  EXPECT_EQ(refused_field(job), "accepted");
+  layer.set_projection("planar");
+  for (int i = 0; i < 3; ++i) layer.add_direction(0);
+  EXPECT_EQ(refused_field(job), "simulate.paint.layers[0].direction");
+  layer.set_direction(1, 2);
+  layer.set_colour("blue");
+  EXPECT_EQ(refused_field(job), "simulate.paint.layers[0].colour");
+  layer.clear_colour();
+  set_file(*spec.mutable_texture(), "fur.png");
+  EXPECT_EQ(refused_field(job), "simulate.texture");
+  spec.clear_paint();
+  spec.set_project("decal");
+  EXPECT_EQ(refused_field(job), "accepted");
+  spec.clear_texture();
+  EXPECT_EQ(refused_field(job), "simulate.project");
+
+  job = plan_of_two_dips();
+  v1::PaintLayer& of_plan = *job.mutable_plan()->mutable_object()->mutable_paint()->add_layers();
+  set_file(*of_plan.mutable_picture(), "fur.png");
+  of_plan.set_size_mm(-1);
+  EXPECT_EQ(refused_field(job), "plan.object.paint.layers[0].size_mm");
+}
+
 TEST(Spec, PredictRequiresItsOwnFiles) {
   v1::Job job;
   set_file(*job.mutable_predict()->mutable_mesh(), "spot.obj");
