@@ -61,7 +61,9 @@ export const change = (part: Partial<Draft>): void => {
   draft.value = { ...draft.value, requestId: newRequestId(), ...part };
 };
 
-export const film = computed<Film>(() => filmOf(draft.value.film) ?? filmOf('A4')!);
+// Separate from the draft, so that other changes of the draft keep the film, and with it the view of the object.
+const filmName = computed(() => draft.value.film);
+export const film = computed<Film>(() => filmOf(filmName.value) ?? filmOf('A4')!);
 
 /** Centre of the object's bounding box in its own frame, mm. */
 export const centre_mm = computed<Vec3>(() => {
