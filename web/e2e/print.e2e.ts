@@ -294,6 +294,43 @@ rareTest('unusable files are refused, each with a reason and a remedy', async ()
   expect(person.complaints).toEqual([]);
 });
 
+rareTest('a picture waits for its model; a missing texture blocks the simulation', async () => {
+  const person = await come(there, 'mia');
+  const { page } = person;
+  const { obj, mtl, png } = files();
+  const put = (names: string[]) => page.locator('input[type=file]').setInputFiles(names);
+  await put([png]);
+  await page.getByText('ball.png waits for a model').waitFor();
+  await look(person, 'new-print-waiting');
+  await put([obj, mtl]);
+  await page.locator('.stage canvas').waitFor();
+  const simulate = page.getByRole('button', { name: 'Simulate' });
+  expect(await simulate.isEnabled()).toBe(true);
+
+  await page.getByRole('button', { name: 'Start over' }).click();
+  await put([obj, mtl]);
+  await page.getByText('Add "ball.png", which ball.mtl names, or choose another texture').waitFor();
+  expect(await simulate.isDisabled()).toBe(true);
+  await look(person, 'new-print-missing');
+  await put([png]);
+  await page.getByText('Computes the film image').waitFor();
+  expect(await simulate.isEnabled()).toBe(true);
+
+  const stl = 'solid\nouter loop\nvertex 0 0 0\nvertex 30 0 0\nvertex 0 30 9\nendloop\nendsolid';
+  await page.getByRole('button', { name: 'Start over' }).click();
+  await put([png]);
+  await page.getByText('ball.png waits for a model').waitFor();
+  await page
+    .locator('input[type=file]')
+    .setInputFiles([{ name: 'leaf.stl', mimeType: 'model/stl', buffer: Buffer.from(stl) }]);
+  await page.getByText('the picture is projected from below, as the film sees it').waitFor();
+  await page.getByLabel('Projection of the picture').selectOption('box');
+  await page.getByLabel('Turn of the picture').fill('90');
+  expect(await simulate.isEnabled()).toBe(true);
+  await look(person, 'new-print-projected');
+  expect(person.complaints).toEqual([]);
+});
+
 rareTest('two users see each other’s jobs; a page recovers when the daemon returns', async () => {
   const [mia, max] = [await come(there, 'mia'), await come(there, 'max', 'jobs', 390)];
   await max.page.getByRole('link', { name: 'ball' }).first().waitFor();

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { arrange, contradiction, isPlain, nameFor, roleOf } from '../src/model/files';
+import { contradiction, isPlain, nameFor, roleOf } from '../src/model/files';
 
 const file = (name: string) => ({ name });
 const bytes = (text: string) => new TextEncoder().encode(text);
@@ -33,26 +33,6 @@ describe('files', () => {
     expect(contradiction('mesh', 'a.obj', bytes('MZ\0\0'))).toBeDefined();
     expect(contradiction('mesh', 'a.obj', bytes('# by hand\nv 1 2 3'))).toBeUndefined();
     expect(contradiction('mesh', 'a.stl', bytes(''))).toBeDefined();
-  });
-
-  test('an image referenced by a material keeps the referenced name; another image is the texture', () => {
-    const skin = file('Skin.PNG');
-    const other = file('logo.png');
-    const mtl = { file: file('a.mtl'), text: 'newmtl m\nmap_Kd textures\\skin.png\n' };
-    const arranged = arrange(['./a.mtl'], [mtl], [skin, other]);
-    expect(arranged.extra.map(({ name }) => name)).toEqual(['a.mtl', 'textures/skin.png']);
-    expect(arranged.texture).toBe(other);
-    expect(arranged.missing).toEqual([]);
-    expect(arranged.materials.get('m')?.file).toBe(skin);
-  });
-
-  test('that are referenced but missing are reported', () => {
-    const { missing } = arrange(
-      ['b.mtl'],
-      [{ file: file('a.mtl'), text: 'newmtl m\nmap_Kd x.png' }],
-      [],
-    );
-    expect(missing).toEqual(['the material file "b.mtl"', 'the image "x.png" of material "m"']);
   });
 
   test('with names that the API refuses are renamed', () => {

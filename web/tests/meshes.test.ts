@@ -2,8 +2,9 @@ import { describe, expect, test } from 'vitest';
 import { readGltf } from '../src/model/gltf';
 import type { GltfJson } from '../src/model/gltf_file';
 import { boxOf } from '../src/model/mesh';
-import { readMtl, readObj } from '../src/model/obj';
-import { readPlyMesh } from '../src/model/ply';
+import { decodeText, imageNameOf, readMtl } from '../src/model/mtl';
+import { readObj } from '../src/model/obj';
+import { readPlyMesh } from '../src/model/ply_mesh';
 import { attempt, Refusal } from '../src/model/result';
 import { readStl } from '../src/model/stl';
 import { placesOf, readSurfaceMap } from '../src/model/surface_map';
@@ -43,12 +44,41 @@ describe('OBJ', () => {
     expect(() => boxOf(readObj('v 0 0 0\n'))).toThrow(Refusal);
   });
 
+  test('texture coordinates count only if a face uses them', () => {
+    const text = 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n';
+    expect(readObj(`${text}f 1 2 3\n`).uvs).toBeUndefined();
+    expect(readObj(`${text}f 1/1 2/1 3/1\n`).uvs).toBeDefined();
+  });
+});
+
+describe('MTL', () => {
   test('image names of materials may have options and spaces', () => {
     const materials = readMtl(
       'newmtl a b\nKd 1 0 0.5\nmap_Kd -s 1 1 1 -clamp on my skin.png\nnewmtl c\n',
     );
     expect(materials.get('a b')).toEqual({ colour: [1, 0, 0.5], map: 'my skin.png' });
     expect(materials.get('c')).toEqual({ colour: [1, 1, 1] });
+  });
+
+  test.each([
+    ['-bm 0.5 -o 1 2 skin.png', 'skin.png'],
+    ['skin.png -clamp on', 'skin.png'],
+    ['"my skin.png"', 'my skin.png'],
+    ['a -1.png', 'a -1.png'],
+    ['-dash.png', '-dash.png'],
+  ])('%j names the image %j', (text, name) => {
+    expect(imageNameOf(text)).toBe(name);
+  });
+
+  test('keywords have any case, lines any end, and map_Ka stands in for map_Kd', () => {
+    const materials = readMtl('NEWMTL a\rMAP_KA b.png\rnewmtl c\rmap_Ka b.png\rMap_kd d.png');
+    expect(materials.get('a')!.map).toBe('b.png');
+    expect(materials.get('c')!.map).toBe('d.png');
+  });
+
+  test('text that is not UTF-8 is Latin-1', () => {
+    expect(decodeText(Uint8Array.of(0x67, 0x72, 0xfc, 0x6e).buffer)).toBe('grün');
+    expect(decodeText(bytesOf('grün'))).toBe('grün');
   });
 });
 
@@ -129,6 +159,28 @@ describe('PLY', () => {
   ])('a file with %s is refused', (_, broken) => {
     const result = attempt(() => readPlyMesh(bytesOf(broken)));
     expect(result.ok).toBe(false);
+  });
+
+  test('texture files, coordinates of faces and numbers of textures are read', () => {
+    const file =
+      'ply\nformat ascii 1.0\ncomment TextureFile my skin.png\ncomment TextureFile b.png\n' +
+      'element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 3\n' +
+      'property list uchar int vertex_indices\nproperty list uchar float texcoord\n' +
+      'property int texnumber\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n' +
+      '3 0 1 2 6 0 0 1 0 1 1 1\n4 0 1 2 3 8 0 0 0.5 0 0.5 1 0 1 0\n3 0 1 3 0 1\n';
+    const mesh = readPlyMesh(bytesOf(file));
+    expect([...mesh.materials!.values()].map(({ map }) => map)).toEqual(['my skin.png', 'b.png']);
+    expect(mesh.parts).toEqual([
+      { material: 'b.png', first: 0, count: 6 },
+      { material: 'my skin.png', first: 6, count: 6 },
+    ]);
+    expect([...mesh.indices]).toEqual([0, 1, 2, 9, 10, 11, 3, 4, 5, 6, 7, 8]);
+    expect([...mesh.positions.slice(24, 27)]).toEqual([0, 1, 0]);
+    expect([...mesh.uvs!]).toEqual([
+      ...[0, 0, 1, 0, 1, 1],
+      ...[0, 0, 0.5, 0, 0.5, 1, 0, 0, 0.5, 1, 0, 1],
+      ...[0, 0, 0, 0, 0, 0],
+    ]);
   });
 
   test('a surface map has film positions, times and stretch', () => {

@@ -1,8 +1,6 @@
 /**
  * Classifies dropped files. Every unusable file is refused with a reason and a remedy; none is ignored silently.
  */
-import type { SurfaceMaterial } from './mesh';
-import { readMtl } from './obj';
 
 export interface Named {
   name: string;
@@ -81,8 +79,13 @@ export function contradiction(role: Role, name: string, head: Uint8Array): strin
   return undefined;
 }
 
-const baseOf = (path: string): string =>
-  path.replaceAll('\\', '/').split('/').at(-1)!.toLowerCase();
+/** The name without its folder. */
+export const baseOf = (path: string): string => path.replaceAll('\\', '/').split('/').at(-1)!;
+
+const keyOf = (path: string): string => baseOf(path).normalize('NFC').toLowerCase();
+
+/** True if the paths name the same file, whatever their folder, case and Unicode form. */
+export const isSameFile = (a: string, b: string): boolean => keyOf(a) === keyOf(b);
 
 /** True if the API accepts the name for a job's input file (InputFile.name). */
 export const isPlain = (name: string): boolean =>
@@ -95,56 +98,9 @@ export const isPlain = (name: string): boolean =>
 
 /** The name of a file in a job: the name that other files use for it, if the API accepts that name. */
 export function nameFor(file: Named, references: readonly string[]): string {
-  const reference = references.find((path) => baseOf(path) === baseOf(file.name));
+  const reference = references.find((path) => isSameFile(path, file.name));
   const wanted = reference?.replaceAll('\\', '/');
   if (wanted !== undefined && isPlain(wanted)) return wanted;
   const own = file.name.replace(/[\\/\p{Cc}]/gu, '_').replace(/^-+/, '');
   return own === '' || own === '.' || own === '..' ? 'file' : own;
-}
-
-/** How the files refer to each other. */
-export interface Arrangement<F extends Named> {
-  /** MTL files and the images that they reference, under the referenced names. */
-  extra: { name: string; file: F }[];
-  /** An image that no material references; it becomes the texture of the whole object. */
-  texture?: F;
-  /** Descriptions of the referenced files that are missing. */
-  missing: string[];
-  /** The appearance of each material, with its image if present. */
-  materials: Map<string, SurfaceMaterial & { file?: F }>;
-}
-
-/**
- * `libraries` are the material files that the mesh references, `mtl` is the text of each material file, and `own` are
- * the materials in the mesh's own file.
- */
-export function arrange<F extends Named>(
-  libraries: readonly string[],
-  mtl: readonly { file: F; text: string }[],
-  images: readonly F[],
-  own: ReadonlyMap<string, SurfaceMaterial> = new Map(),
-): Arrangement<F> {
-  const materials = new Map<string, SurfaceMaterial & { file?: F }>();
-  const missing: string[] = [];
-  const extra: Arrangement<F>['extra'] = [];
-  const named = new Set<F>();
-  const add = (name: string, material: SurfaceMaterial) => {
-    const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
-    if (material.map && !image) missing.push(`the image "${material.map}" of material "${name}"`);
-    if (material.map && image && !named.has(image)) {
-      named.add(image);
-      extra.push({ name: nameFor(image, [material.map]), file: image });
-    }
-    materials.set(name, { ...material, ...(image ? { file: image } : {}) });
-  };
-  for (const library of libraries)
-    if (!mtl.some(({ file }) => baseOf(file.name) === baseOf(library)))
-      missing.push(`the material file "${library}"`);
-  for (const { file, text } of mtl) {
-    extra.push({ name: nameFor(file, libraries), file });
-    for (const [name, material] of readMtl(text)) add(name, material);
-  }
-  for (const [name, material] of own) add(name, material);
-  const texture = images.find((image) => !named.has(image));
-  return { extra, missing, materials, ...(texture ? { texture } : {}) };
 }

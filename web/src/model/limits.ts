@@ -9,6 +9,7 @@ export interface NumberRule {
 
 /** Short forms of the API's units, for the pages. */
 const kUnits: Readonly<Record<string, string>> = {
+  degrees: '°',
   'degrees Celsius': '°C',
   'dots per inch': 'dpi',
 };

@@ -1,5 +1,5 @@
 import { Refusal } from './result';
-import type { Mesh, SurfaceMaterial } from './mesh';
+import type { Mesh } from './mesh';
 
 /** Reads a Wavefront OBJ: vertices, texture coordinates, polygons, and material names. */
 export function readObj(text: string): Mesh {
@@ -26,6 +26,7 @@ class ObjReader {
   private readonly uvs: number[] = [];
   private readonly rgb: number[] = [];
   private readonly indices: number[] = [];
+  private hasUvs = false;
 
   take(line: string, number: number): void {
     const [keyword, ...words] = line.split(/\s+/);
@@ -43,7 +44,7 @@ class ObjReader {
     return {
       positions: Float32Array.from(this.positions),
       indices: Uint32Array.from(this.indices),
-      ...(this.vt.length > 0 ? { uvs: Float32Array.from(this.uvs) } : {}),
+      ...(this.hasUvs ? { uvs: Float32Array.from(this.uvs) } : {}),
       ...(this.colours.length > 0 && this.colours.length === this.v.length
         ? { colours: Uint8Array.from(this.rgb) }
         : {}),
@@ -85,6 +86,7 @@ class ObjReader {
     const key = (t + 1) * 0x4000000 + p;
     const known = this.corners.get(key);
     if (known !== undefined) return known;
+    this.hasUvs ||= t >= 0;
     const corner = this.positions.length / 3;
     this.corners.set(key, corner);
     for (let i = 0; i < 3; i += 1) this.positions.push(this.v[3 * p + i]!);
@@ -104,28 +106,4 @@ class ObjReader {
       );
     return at;
   }
-}
-
-/** Reads an MTL: maps each material's name to its displayed properties. */
-export function readMtl(text: string): Map<string, SurfaceMaterial> {
-  const materials = new Map<string, SurfaceMaterial>();
-  let current: SurfaceMaterial | undefined;
-  for (const raw of text.split('\n')) {
-    const line = raw.trim();
-    const [keyword, ...words] = line.split(/\s+/);
-    if (keyword === 'newmtl') {
-      current = { colour: [1, 1, 1] };
-      materials.set(line.slice(6).trim(), current);
-    } else if (keyword === 'Kd' && current) {
-      const [r, g, b] = words.map(Number);
-      if ([r, g, b].every((c) => Number.isFinite(c))) current.colour = [r!, g!, b!];
-    } else if (keyword === 'map_Kd' && current) {
-      // Options come before the name, which may contain spaces.
-      current.map = line
-        .slice(6)
-        .trim()
-        .replace(/^(-\w+\s+([\d.+-]+\s+|on\s+|off\s+)*)*/, '');
-    }
-  }
-  return materials;
 }

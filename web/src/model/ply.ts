@@ -1,5 +1,5 @@
+import { decodeText } from './mtl';
 import { Refusal } from './result';
-import type { Mesh } from './mesh';
 
 /** An element of a PLY file: its scalar properties and its list properties, by name. */
 export interface PlyElement {
@@ -50,14 +50,26 @@ export function readPly(bytes: ArrayBuffer): Map<string, PlyElement> {
   return elements;
 }
 
-function readHeader(bytes: ArrayBuffer): Header {
+function headerOf(bytes: ArrayBuffer): string {
   const text = new TextDecoder('latin1').decode(
     new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)),
   );
   const end = /^ply\r?\n[\s\S]*?\nend_header\r?\n/.exec(text);
   if (!end) throw new Refusal('the file has no valid PLY header', kAgain);
-  const header: Header = { format: '', elements: [], size: end[0].length };
-  for (const line of end[0].split(/\r?\n/)) {
+  return end[0];
+}
+
+/** The images that the header names, as MeshLab writes them: "comment TextureFile skin.png". */
+export function texturesOf(bytes: ArrayBuffer): string[] {
+  const size = headerOf(bytes).length;
+  const text = decodeText(bytes.slice(0, size));
+  return [...text.matchAll(/^comment[ \t]+TextureFile[ \t]+(.*\S)/gim)].map(([, name]) => name!);
+}
+
+function readHeader(bytes: ArrayBuffer): Header {
+  const text = headerOf(bytes);
+  const header: Header = { format: '', elements: [], size: text.length };
+  for (const line of text.split(/\r?\n/)) {
     const words = line.trim().split(/\s+/);
     if (words[0] === 'format') header.format = words[1] ?? '';
     if (words[0] === 'element')
@@ -179,27 +191,4 @@ export function columnsOf(element: PlyElement, names: string[]): Float32Array | 
     for (let row = 0; row < element.count; row += 1) out[row * names.length + i] = column![row]!;
   });
   return out;
-}
-
-/** Reads a PLY file as a model. */
-export function readPlyMesh(bytes: ArrayBuffer): Mesh {
-  const elements = readPly(bytes);
-  const vertex = elements.get('vertex');
-  const positions = vertex && columnsOf(vertex, ['x', 'y', 'z']);
-  if (!vertex || !positions)
-    throw new Refusal('the file has no vertices with x, y and z', 'Export the model as a mesh');
-  const uvs =
-    columnsOf(vertex, ['u', 'v']) ??
-    columnsOf(vertex, ['s', 't']) ??
-    columnsOf(vertex, ['texture_u', 'texture_v']);
-  const colours = columnsOf(vertex, ['red', 'green', 'blue']);
-  const indices = trianglesOf(elements);
-  return {
-    positions,
-    indices,
-    ...(uvs ? { uvs } : {}),
-    ...(colours ? { colours: Uint8Array.from(colours) } : {}),
-    parts: [{ material: '', first: 0, count: indices.length }],
-    libraries: [],
-  };
 }

@@ -2,6 +2,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
+  ClampToEdgeWrapping,
   DoubleSide,
   Group,
   Mesh as Mesh3,
@@ -11,11 +12,13 @@ import {
   SRGBColorSpace,
   Texture,
   Vector3,
+  type Wrapping,
 } from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
 import type { Film } from '../model/film';
 import { centreOf, type Box, type Mesh } from '../model/mesh';
-import { rotate, type Pose, type Vec3 } from '../model/pose';
+import { rotate, type Pose, type Quaternion, type Vec3 } from '../model/pose';
+import { isSamePlace, projectPicture, type FlatPicture } from '../model/projection';
 import { Stage, disposeOf, type Side } from './stage';
 
 /** Appearance of a part of the mesh; the first row of `picture` is at the top. */
@@ -36,6 +39,8 @@ export class PoseView {
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private positions = new Float32Array();
   private scale = 1;
+  // The picture that is projected onto the object, with the rotation for which its place was computed.
+  private flat: { picture: FlatPicture; indices: Uint32Array; rotation?: Quaternion } | undefined;
 
   /** @param onPose  called while the user rotates or moves the object */
   constructor(
@@ -59,16 +64,28 @@ export class PoseView {
     this.stage.setFilm(film);
   }
 
-  /** Shows a mesh; `lookOf` returns the appearance of a material. */
-  setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
+  /**
+   * Shows a mesh; `lookOf` returns the appearance of a material. `flat` places the pictures on a mesh without texture
+   * coordinates. Must be followed by `setPose`.
+   */
+  setMesh(
+    mesh: Mesh,
+    box: Box,
+    scale: number,
+    lookOf: (material: string) => Look,
+    flat?: FlatPicture,
+  ): void {
     disposeOf(this.holder);
     this.holder.clear();
     this.box = box;
     this.scale = scale;
     this.positions = new Float32Array(mesh.positions);
+    this.flat = flat && { picture: flat, indices: mesh.indices };
+    const uvs = flat ? new Float32Array((2 * mesh.positions.length) / 3) : mesh.uvs;
+    const wrap = flat ? ClampToEdgeWrapping : RepeatWrapping;
     const object = new Mesh3(
-      geometryOf(mesh),
-      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined)),
+      geometryOf(mesh, uvs),
+      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined, wrap)),
     );
     const [x, y, z] = centreOf(box);
     object.position.set(-x * scale, -y * scale, -z * scale);
@@ -104,12 +121,15 @@ export class PoseView {
     disposeOf(this.holder);
     this.holder.clear();
     this.positions = new Float32Array();
+    this.object = undefined;
+    this.flat = undefined;
     this.stage.draw();
   }
 
   setPose(pose: Pose): void {
     const [w, x, y, z] = pose.rotation;
     this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
+    this.placePicture(pose.rotation);
     this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
     this.stage.draw();
   }
@@ -137,6 +157,17 @@ export class PoseView {
   dispose(): void {
     this.gizmo.dispose();
     this.stage.dispose();
+  }
+
+  private placePicture(rotation: Quaternion): void {
+    if (!this.flat || !this.object) return;
+    const { picture, indices, rotation: last } = this.flat;
+    if (last && isSamePlace(picture, last, rotation)) return;
+    const uvs = this.object.geometry.getAttribute('uv') as BufferAttribute;
+    const mesh = { positions: this.positions, indices };
+    projectPicture(mesh, rotation, picture, uvs.array as Float32Array);
+    uvs.needsUpdate = true;
+    this.flat.rotation = rotation;
   }
 
   private emitPose(): void {
@@ -177,10 +208,10 @@ function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
   return least;
 }
 
-function geometryOf(mesh: Mesh): BufferGeometry {
+function geometryOf(mesh: Mesh, uvs: Float32Array | undefined): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
-  if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
+  if (uvs) geometry.setAttribute('uv', new BufferAttribute(uvs, 2));
   if (mesh.colours) geometry.setAttribute('color', new BufferAttribute(mesh.colours, 3, true));
   geometry.setIndex(new BufferAttribute(mesh.indices, 1));
   mesh.parts.forEach((part, i) => geometry.addGroup(part.first, part.count, i));
@@ -188,7 +219,7 @@ function geometryOf(mesh: Mesh): BufferGeometry {
   return geometry;
 }
 
-function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
+function materialOf(look: Look, hasColours: boolean, wrap: Wrapping): MeshStandardMaterial {
   const material = new MeshStandardMaterial({
     roughness: 0.85,
     side: DoubleSide,
@@ -197,7 +228,7 @@ function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
   material.color.setRGB(...look.colour, SRGBColorSpace);
   if (look.picture) {
     material.map = textureOf(look.picture);
-    material.map.wrapS = material.map.wrapT = RepeatWrapping;
+    material.map.wrapS = material.map.wrapT = wrap;
   }
   return material;
 }

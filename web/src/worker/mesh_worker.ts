@@ -1,14 +1,15 @@
 /** Reads models and surface maps in a separate thread, so that the page stays responsive. */
 import { readGltf } from '../model/gltf';
 import { boxOf, type Mesh } from '../model/mesh';
+import { decodeText } from '../model/mtl';
 import { readObj } from '../model/obj';
-import { readPlyMesh } from '../model/ply';
+import { readPlyMesh } from '../model/ply_mesh';
 import { attempt } from '../model/result';
 import { readStl } from '../model/stl';
 import { readSurfaceMap } from '../model/surface_map';
 import type { Answer, Question } from './reader';
 
-const readObjBytes = (bytes: ArrayBuffer): Mesh => readObj(new TextDecoder().decode(bytes));
+const readObjBytes = (bytes: ArrayBuffer): Mesh => readObj(decodeText(bytes));
 const kReaders: Record<string, (bytes: ArrayBuffer) => Mesh> = {
   stl: readStl,
   ply: readPlyMesh,

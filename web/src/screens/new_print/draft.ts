@@ -6,6 +6,7 @@ import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '
 import { filmOf, type Film } from '../../model/film';
 import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
+import { projectionOf, projectionSpec, type Projection } from '../../model/projection';
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 import { numberOf } from '../../ui/job_text';
@@ -19,6 +20,8 @@ export interface Draft {
   name: string;
   scale: number;
   pose: Pose;
+  /** How the texture comes to the surface, as far as it was chosen. */
+  projection: Projection;
   /** The calibration ("calibrations/7") whose pose is used instead of `pose`; empty for none. */
   calibration: string;
   film: string;
@@ -38,6 +41,7 @@ export const kEmpty: Draft = {
   name: '',
   scale: rules.SimulateSpec.scale.usual,
   pose: kUpright,
+  projection: {},
   calibration: '',
   film: rules.SimulateSpec.film.usual,
   dpi: rules.SimulateSpec.dpi.usual,
@@ -78,6 +82,11 @@ export const sides_mm = computed<Vec3>(() => {
   const [x, y, z] = shape.value ? sidesOf(shape.value.box) : [0, 0, 0];
   return [x * scale, y * scale, z * scale];
 });
+
+/** True if the model is known to have no texture coordinates. The shape of a job does not tell. */
+export const lacksCoordinates = computed(
+  () => shape.value !== undefined && !shape.value.mesh.uvs && !draft.value.from,
+);
 
 /** Longest side of the object's bounding box, mm. */
 export const longest_mm = computed(() =>
@@ -128,6 +137,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
       from: { job: name, spec },
       name: answer.value.displayName,
       scale: spec.scale ?? 1,
+      projection: projectionOf(spec),
       film: spec.film ?? 'A4',
       dpi: spec.dpi ?? 300,
       paper: labels['paper'] ?? kEmpty.paper,
@@ -152,6 +162,8 @@ export function takePoseOfJob(): void {
 export interface Inputs {
   mesh: InputFile;
   texture?: InputFile;
+  /** The paint of job `from`, unless there is a texture. */
+  paint?: SimulateSpecInput['paint'];
   extraFiles: InputFile[];
   profile?: InputFile;
 }
@@ -168,6 +180,7 @@ export function jobOf(
     ...(measured
       ? { calibration: value.calibration }
       : { scale: value.scale, pose: toApi(value.pose, box_mm), film: value.film }),
+    ...(inputs.texture ? projectionSpec(value.projection) : {}),
     dpi: value.dpi,
     model: value.model,
     dipSpeedMmPerS: value.speed_mm_per_s,

@@ -4,10 +4,10 @@ import { orNotify } from '../../state/notices';
 import { may } from '../../state/session';
 import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { refreshCalibrations } from './calibration';
-import { clear, draft, restore, shape, startFrom } from './draft';
+import { draft, restore, shape, startFrom } from './draft';
 import { shapeOfJob } from './from_job';
 import { Intake, Taken, useDrop } from './intake_panel';
-import { isReading, problems, reread } from './intake';
+import { isReading, problems, reread, startOver } from './intake';
 import { ObjectView } from './object_view';
 import { PosePanel } from './pose_panel';
 import { FilmPanel, MorePanel } from './settings_panel';
@@ -23,8 +23,8 @@ async function prepare(from: string | null): Promise<void> {
   if (from && draft.value.from?.job !== from) {
     if (!orNotify(await startFrom(from))) return;
   }
-  if (draft.value.files.length > 0) await reread();
-  else if (draft.value.from) orNotify(await shapeOfJob(draft.value.from.job));
+  await reread();
+  if (draft.value.from && !shape.value) orNotify(await shapeOfJob(draft.value.from.job));
 }
 
 export function NewPrint() {
@@ -59,7 +59,7 @@ export function NewPrint() {
           {hasObject && <Submit />}
         </FieldErrorsOf>
         {(hasObject || draft.value.files.length > 0 || draft.value.from) && (
-          <button type="button" class="plain" onClick={clear}>
+          <button type="button" class="plain" onClick={startOver}>
             Start over
           </button>
         )}

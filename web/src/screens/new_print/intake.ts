@@ -1,20 +1,21 @@
 /** Handles dropped files: classifies them, reads the model, and reports refused files with the reason. */
-import { batch, signal } from '@preact/signals';
-import {
-  arrange,
-  contradiction,
-  nameFor,
-  roleOf,
-  type Arrangement,
-  type Role,
-} from '../../model/files';
+import { batch, computed, signal } from '@preact/signals';
+import { arrange, type Arrangement } from '../../model/arrangement';
+import { contradiction, nameFor, roleOf, type Role } from '../../model/files';
+import { decodeText } from '../../model/mtl';
 import { refused, type Result } from '../../model/result';
 import { readMesh } from '../../worker/reader';
-import { change, draft, firstScale, shape } from './draft';
+import { change, clear, draft, firstScale, shape, type Shape } from './draft';
 
-/** Refused and missing files, with the reason. */
-export const problems = signal<{ name: string; why: string }[]>([]);
-export const arrangement = signal<Arrangement<File>>(arrange([], [], []));
+interface Problem {
+  name: string;
+  why: string;
+}
+
+/** Refused files, with the reason. */
+export const problems = signal<Problem[]>([]);
+const kNothing: Arrangement<File> = arrange(undefined, [], []);
+export const arrangement = signal(kNothing);
 export const isReading = signal(false);
 
 const withRole = (files: readonly File[], role: Role) =>
@@ -25,10 +26,29 @@ export const meshOf = (files: readonly File[]): File | undefined => withRole(fil
 export const profileOf = (files: readonly File[]): File | undefined =>
   withRole(files, 'profile')[0];
 
+/** Files without a model. They are used when the model arrives. */
+export const waiting = computed(() => {
+  const { files, from } = draft.value;
+  return shape.value || from || meshOf(files) ? [] : files;
+});
+
+/** Forgets the draft and its files. */
+export function startOver(): void {
+  batch(() => {
+    clear();
+    problems.value = [];
+    arrangement.value = kNothing;
+  });
+}
+
+/** Removes a file from the draft. */
+export const remove = (file: File): Promise<void> =>
+  readAll(without(draft.value.files, file), false, []);
+
 /** Adds files to the draft. A new model replaces the old one and all files that belong to it. */
 export async function take(dropped: readonly File[]): Promise<void> {
   const good: File[] = [];
-  const bad: { name: string; why: string }[] = [];
+  const bad: Problem[] = [];
   for (const file of dropped) {
     const why = await whyNot(file);
     if (why) bad.push({ name: file.name, why });
@@ -44,10 +64,11 @@ export async function take(dropped: readonly File[]): Promise<void> {
   const usable = good.filter((file) => !meshes.slice(1).includes(file));
   if (usable.length === 0) return;
   const { files } = draft.value;
-  const kept = meshes.length > 0 ? withRole(files, 'profile') : files;
+  const hasModel = waiting.value.length === 0;
+  const kept = meshes.length > 0 && hasModel ? withRole(files, 'profile') : files;
   // A newly dropped image replaces the old texture, unless a material references the old one.
   const images = withRole(usable, 'image');
-  const stale = images.length > 0 && arrangement.value.texture;
+  const stale = images.length > 0 && hasModel && arrangement.value.texture;
   const merged = [
     ...usable,
     ...kept.filter((file) => file !== stale && !usable.some((other) => other.name === file.name)),
@@ -69,43 +90,46 @@ async function whyNot(file: File): Promise<string | undefined> {
   return contradiction(role, file.name, new Uint8Array(head));
 }
 
-async function readAll(
-  files: File[],
-  isNew: boolean,
-  bad: { name: string; why: string }[],
-): Promise<void> {
+async function readAll(files: File[], isNew: boolean, bad: Problem[]): Promise<void> {
   isReading.value = true;
   const mesh = meshOf(files);
   const read = mesh && (await readMesh(mesh));
   const mtl = await Promise.all(
-    withRole(files, 'material').map(async (file) => ({ file, text: await file.text() })),
+    withRole(files, 'material').map(async (file) => ({
+      file,
+      text: decodeText(await file.arrayBuffer()),
+    })),
   );
   isReading.value = false;
   if (mesh && read && !read.ok) {
     const { what, remedy } = read.failure;
     problems.value = [...bad, { name: mesh.name, why: remedy ? `${what}. ${remedy}` : what }];
+    // The files that came with the model wait for a better one.
+    const hasModel = shape.value !== undefined || meshOf(draft.value.files) !== undefined;
+    if (isNew && !hasModel) await readAll(without(files, mesh), false, problems.value);
     return;
   }
-  const { from } = draft.value;
   batch(() => {
-    const libraries = read?.ok ? read.value.mesh.libraries : [];
-    const own = read?.ok ? read.value.mesh.materials : undefined;
-    arrangement.value = withPictures(arrange(libraries, mtl, withRole(files, 'image'), own));
-    problems.value = [
-      ...bad,
-      ...(read ? arrangement.value.missing : []).map((name) => ({
-        name,
-        why: 'the model needs this file, but it was not dropped. Drop it too, or drop an image as the texture of the whole object',
-      })),
-    ];
+    const model = mesh && read?.ok ? { name: mesh.name, mesh: read.value.mesh } : undefined;
+    arrangement.value = withPictures(arrange(model, mtl, withRole(files, 'image')));
+    problems.value = bad;
     if (read?.ok) shape.value = read.value;
-    if (isNew && mesh && read?.ok) {
-      const { from: _, ...rest } = draft.value;
-      draft.value = { ...rest, files };
-      change({ name: mesh.name.replace(/\.\w+$/, ''), scale: firstScale(read.value) });
-    } else {
-      change({ files, ...(from ? { from } : {}) });
-    }
+    if (isNew && mesh && read?.ok) begin(mesh, read.value, files);
+    else change({ files });
+  });
+}
+
+const without = (files: readonly File[], file: File): File[] =>
+  files.filter((other) => other !== file);
+
+/** Begins a print of a new model. */
+function begin(mesh: File, read: Shape, files: File[]): void {
+  const { from: _, ...rest } = draft.value;
+  draft.value = { ...rest, files };
+  change({
+    name: mesh.name.replace(/\.\w+$/, ''),
+    scale: firstScale(read),
+    ...(read.mesh.uvs ? { projection: {} } : {}),
   });
 }
 

@@ -1,20 +1,15 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
 import { limitsOf } from '../../model/limits';
-import {
-  formatBytes,
-  formatSize,
-  kLengthUnits,
-  likelyUnit,
-  oddSize,
-  unitOf,
-} from '../../model/units';
+import { formatSize, kLengthUnits, likelyUnit, oddSize, unitOf } from '../../model/units';
 import { Button, NumberField, Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
 import { change, draft, longest_mm, shape, sides_mm } from './draft';
-import { isReading, problems, samples, take, takeSample } from './intake';
+import { FileList, Waiting } from './file_list';
+import { arrangement, isReading, problems, samples, take, takeSample, waiting } from './intake';
+import { ProjectionPanel } from './projection_panel';
 
 const kEndings = '.obj,.mtl,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
 
@@ -80,8 +75,9 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
       <h2>{isBusy ? 'Loading…' : 'Drop a model here'}</h2>
       <p>
         Supported models: OBJ (with its MTL), PLY, STL, glTF and GLB. Add the texture image (PNG or
-        JPEG) unless it is part of the model.
+        JPEG) unless it is part of the model. You can also drop the image first.
       </p>
+      <Waiting />
       <Browse label="Choose files" />
       {ready.length > 0 && (
         <p class="samples">
@@ -105,31 +101,34 @@ export function Taken() {
     <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
       {from && files.length === 0 && <p>Same object as in {from.job.replace('jobs/', 'job ')}</p>}
-      {files.length > 0 && (
-        <ul class="files">
-          {files.map((file) => (
-            <li key={file.name}>
-              <span class="name">{file.name}</span>
-              <span class="quiet">{formatBytes(file.size)}</span>
-            </li>
-          ))}
-        </ul>
-      )}
+      {waiting.value.length === 0 && <FileList />}
       {isReading.value && <p role="status">Reading the model…</p>}
-      {problems.value.length > 0 && (
-        <div role="alert">
-          <ul class="problems">
-            {problems.value.map(({ name, why }) => (
-              <li key={name}>
-                <Icon name="warning" /> <b>{name}</b>: {why}.
-              </li>
-            ))}
-          </ul>
-        </div>
-      )}
+      <Problems />
       {hasAny && <Browse label="Add or replace files" />}
       {shape.value && !calibrated.value && <Size />}
+      {shape.value && <ProjectionPanel />}
     </section>
+  );
+}
+
+/** Refused and missing files. */
+function Problems() {
+  const missing = arrangement.value.missing.map(({ name, by }) => ({
+    name,
+    why: `${by} names this file. Add it, or choose another texture`,
+  }));
+  const all = [...problems.value, ...missing];
+  if (all.length === 0) return null;
+  return (
+    <div role="alert">
+      <ul class="problems">
+        {all.map(({ name, why }) => (
+          <li key={name}>
+            <Icon name="warning" /> <b>{name}</b>: {why}.
+          </li>
+        ))}
+      </ul>
+    </div>
   );
 }
 

@@ -4,10 +4,11 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
 import type { Side } from '../../view3d/stage';
 import { colourOf, place, type Scale } from '../../model/colour_map';
+import type { FlatPicture } from '../../model/projection';
 import { Switch } from '../../ui/controls';
 import { Legend } from '../../ui/legend';
 import { calibrated } from './calibration';
-import { change, draft, film, shape } from './draft';
+import { change, draft, film, lacksCoordinates, shape } from './draft';
 import { arrangement } from './intake';
 import { shown, type Shown } from './preview';
 
@@ -17,6 +18,7 @@ const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
 // Separate from the draft, so that rotating the object does not rebuild its mesh.
 const scale = computed(() => draft.value.scale);
 const pose = computed(() => calibrated.value?.pose ?? draft.value.pose);
+const projection = computed(() => draft.value.projection);
 
 /** Decoded images by file. Formats that the browser cannot display (TIFF) are skipped. */
 async function pictures(): Promise<Map<File, ImageBitmap>> {
@@ -31,13 +33,25 @@ async function pictures(): Promise<Map<File, ImageBitmap>> {
   return out;
 }
 
-function lookOf(material: string, ready: Map<File, ImageBitmap>): Look {
+function lookOf(material: string, ready: Map<File, ImageBitmap>, flat?: FlatPicture): Look {
   const { materials, texture } = arrangement.value;
   const known = materials.get(material);
   const file = texture ?? known?.file;
-  const picture = file && ready.get(file);
+  const hasPlace = flat !== undefined || shape.value?.mesh.uvs !== undefined;
+  const picture = file && hasPlace && ready.get(file);
   if (picture) return { colour: [1, 1, 1], picture };
   return { colour: known?.colour ?? [0.85, 0.85, 0.85] };
+}
+
+/** How the texture is projected, if the model lacks texture coordinates and the view can show the projection. */
+function flatPicture(ready: Map<File, ImageBitmap>): FlatPicture | undefined {
+  const { texture } = arrangement.value;
+  const picture = texture && ready.get(texture);
+  const { kind = 'dip', size_mm, turn_deg = 0 } = projection.value;
+  if (!picture || !lacksCoordinates.value || (kind !== 'dip' && kind !== 'planar'))
+    return undefined;
+  const width = size_mm && size_mm / scale.value;
+  return { kind, width, turn_deg, aspect: picture.width / picture.height };
 }
 
 export function ObjectView() {
@@ -140,12 +154,14 @@ function follow(view: PoseView): () => void {
       const now = shape.value;
       const factor = scale.value;
       void arrangement.value;
+      void projection.value;
       count += 1;
       const turn = count;
       if (!now) return view.clear();
       return void pictures().then((ready) => {
         if (turn !== count) return;
-        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready));
+        const flat = flatPicture(ready);
+        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready, flat), flat);
         view.setPose(pose.peek());
         view.setHeat(shown.value && coat.peek() === 'stretch' ? heatOf(shown.value) : undefined);
       });

@@ -1,6 +1,7 @@
 import { signal } from '@preact/signals';
 import { jobs as jobsApi } from '../../api/services';
 import { upload } from '../../api/uploads';
+import { remedyForMissing } from '../../model/arrangement';
 import { done, refused, type Failure, type Result } from '../../model/result';
 import { go } from '../../route';
 import { remember } from '../../state/jobs';
@@ -10,7 +11,7 @@ import { Progress } from '../../ui/controls';
 import { remedyOf, useFormErrors } from '../../ui/field_errors';
 import { calibrated, staleness } from './calibration';
 import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
-import { inputsOf } from './intake';
+import { arrangement, inputsOf } from './intake';
 
 interface Sending {
   name: string;
@@ -70,6 +71,7 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   const mesh = brought.mesh ?? (spec?.mesh as Inputs['mesh'] | undefined);
   if (!mesh) return refused('the model is missing', 'Drop a model, or choose a sample');
   const texture = brought.texture ?? (spec?.texture as Inputs['texture']);
+  const paint = texture ? undefined : (spec?.paint as Inputs['paint']);
   const profile = brought.profile ?? (spec?.profile as Inputs['profile']);
   const kept = (spec?.extraFiles ?? []) as Inputs['extraFiles'];
   const names = new Set(extraFiles.map((file) => file.name));
@@ -77,6 +79,7 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
     mesh,
     extraFiles: [...extraFiles, ...kept.filter((file) => !names.has(file.name))],
     ...(texture ? { texture } : {}),
+    ...(paint ? { paint } : {}),
     ...(profile ? { profile } : {}),
   });
 }
@@ -84,6 +87,8 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
 /** Returns the reason why the draft cannot be submitted; undefined if it can. */
 function obstacle(): string | undefined {
   if (!shape.value) return 'Drop a model, or choose a sample';
+  const remedy = remedyForMissing(arrangement.value.missing);
+  if (remedy) return remedy;
   const [x, y] = (calibrated.value?.pose ?? draft.value.pose).centre_mm;
   const { width_mm, height_mm } = film.value;
   if (Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2)
