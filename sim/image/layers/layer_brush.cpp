@@ -8,9 +8,9 @@
 namespace hydroprint::image {
 namespace {
 
-/// Angle around the axis over which the map of a cylinder counts as linear: the error is a fiftieth
-/// of a picture's pixel for pictures of 16384 pixels around the axis.
-constexpr double kLinear_rad = 0.06;
+/// Error of the place on the picture, in its pixels, up to which the map of a cylinder counts as
+/// linear.
+constexpr double kLinear_px = 0.1;
 
 float clamp01(double t) { return static_cast<float>(t > 0 ? std::min(t, 1.0) : 0); }
 
@@ -98,18 +98,26 @@ void LayerBrush::add_picture(const Patch& patch, const Corners& uv) {
 void LayerBrush::lay_around(const Patch& patch) {
   const Placement& placement = layer_->placement;
   const double first_rad = placement.angle_rad(patch.position_mm[0]);
-  Corners uv;
-  double widest_rad = 0, furthest_rad = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& p = patch.position_mm[i];
+  const auto around = [&](const Eigen::Vector3d& p) {
     const double turn_rad =
         std::remainder(placement.angle_rad(p) - first_rad, 2 * std::numbers::pi);
-    uv[i] = placement.around(first_rad + turn_rad, p);
-    widest_rad = std::max(widest_rad, std::abs(turn_rad));
-    furthest_rad = std::max(furthest_rad, std::abs(first_rad + turn_rad));
+    return first_rad + turn_rad;
+  };
+  Corners uv;
+  double error_px = 0, furthest_rad = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& p = patch.position_mm[i];
+    uv[i] = placement.around(around(p), p);
+    furthest_rad = std::max(furthest_rad, std::abs(around(p)));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    const Eigen::Vector3d p = 0.5 * (patch.position_mm[i] + patch.position_mm[next]);
+    const Eigen::Vector2d error = placement.around(around(p), p) - 0.5 * (uv[i] + uv[next]);
+    error_px = std::max(error_px, std::abs(error.x()) * layer_->picture->width());
   }
   const bool crosses_end = !placement.repeat && furthest_rad > std::numbers::pi;
-  if (widest_rad <= kLinear_rad && !crosses_end) {
+  if (error_px <= kLinear_px && !crosses_end) {
     add_picture(patch, uv);
   } else {
     round_ = RoundBrush{layer_, BarycentricMap(patch.at), patch.position_mm};

@@ -10,9 +10,9 @@ from definition import Layer, Paint
 from landing import Film, Landing, Pairs, across_angle, across_edges, changes_fast, codes_at, left_out
 from solids import Solid
 
-LEVELS = 4.0  # largest difference of 99 % of the points
+LEVELS = 2.0  # largest difference of 99 % of the points
 POINTS_SHARE = 0.99
-SEAM_LEVELS = 6.0
+SEAM_LEVELS = 3.0
 SEAM_APART_MM = 0.6
 SEAM_PAIRS = 20
 SEAM_CHANGE = 20.0  # pairs between which the expected colour changes more are left out
