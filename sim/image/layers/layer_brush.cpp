@@ -12,6 +12,11 @@ namespace {
 /// linear.
 constexpr double kLinear_px = 0.1;
 
+/// Places on a patch where its map is compared with a linear one, barycentric.
+const std::array<Eigen::Vector3d, 4> kBetween = {
+    Eigen::Vector3d(0.75, 0.25, 0), Eigen::Vector3d(0, 0.75, 0.25), Eigen::Vector3d(0.25, 0, 0.75),
+    Eigen::Vector3d::Constant(1.0 / 3)};
+
 float clamp01(double t) { return static_cast<float>(t > 0 ? std::min(t, 1.0) : 0); }
 
 float smooth_step(float x) { return x * x * (3 - 2 * x); }
@@ -110,11 +115,17 @@ void LayerBrush::lay_around(const Patch& patch) {
     uv[i] = placement.around(around(p), p);
     furthest_rad = std::max(furthest_rad, std::abs(around(p)));
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t next = (i + 1) % 3;
-    const Eigen::Vector3d p = 0.5 * (patch.position_mm[i] + patch.position_mm[next]);
-    const Eigen::Vector2d error = placement.around(around(p), p) - 0.5 * (uv[i] + uv[next]);
-    error_px = std::max(error_px, std::abs(error.x()) * layer_->picture->width());
+  // Not at the middles of edges, where the error vanishes if both ends are equally far from the
+  // axis.
+  for (const Eigen::Vector3d& at : kBetween) {
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+    Eigen::Vector2d linear_uv = Eigen::Vector2d::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      p += at[static_cast<int>(i)] * patch.position_mm[i];
+      linear_uv += at[static_cast<int>(i)] * uv[i];
+    }
+    const double error = placement.around(around(p), p).x() - linear_uv.x();
+    error_px = std::max(error_px, std::abs(error) * layer_->picture->width());
   }
   const bool crosses_end = !placement.repeat && furthest_rad > std::numbers::pi;
   if (error_px <= kLinear_px && !crosses_end) {

@@ -27,10 +27,11 @@ TEST(FieldFlags, FieldsOfFlatMessagesAreAmongThoseOfTheSpec) {
   std::vector<std::string> flags;
   for (const pb::FieldDescriptor* field : fields_of(*v1::PlanSpec::descriptor()))
     flags.push_back(flag_of(*field));
-  EXPECT_EQ(flags, (std::vector<std::string>{"--mesh", "--texture", "--extra-files", "--scale",
-                                             "--immersions", "--film", "--profile",
-                                             "--dip-speed-mm-per-s", "--model", "--ink-passes",
-                                             "--inertia", "--dpi", "--threads", "--blend-mm"}));
+  EXPECT_EQ(flags, (std::vector<std::string>{
+                       "--mesh", "--texture", "--extra-files", "--scale", "--paint", "--project",
+                       "--project-size-mm", "--project-turn-deg", "--immersions", "--film",
+                       "--profile", "--dip-speed-mm-per-s", "--model", "--ink-passes", "--inertia",
+                       "--dpi", "--threads", "--blend-mm"}));
 }
 
 TEST(FieldFlags, ValuesArriveInTheirMessages) {

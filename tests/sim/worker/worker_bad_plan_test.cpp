@@ -51,7 +51,7 @@ TEST_F(PlanWorker, ModelWithoutColoursIsRefused) {
   const auto texture = std::find(command.begin(), command.end(), "--texture");
   command.erase(texture, texture + 2);
   expect_refusal(3, command,
-                 {"bare.obj: has no colour that was understood", "Give the model colours"});
+                 {"bare.obj: has no colour that was understood", "Give a picture", "--paint"});
 }
 
 TEST_F(PlanWorker, MissingAndUnknownFlagsAreBadUsage) {
