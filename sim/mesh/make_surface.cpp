@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/number_text.h"
+#include "sim/mesh/coincident.h"
 #include "sim/mesh/edges.h"
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
@@ -39,6 +40,28 @@ std::vector<int> proper_triangles(const Model& model, const std::vector<int>& we
       kept.push_back(static_cast<int>(t));
   }
   return kept;
+}
+
+/// Drops faces that lie exactly on others, with a warning.
+void drop_coincident(const Model& model, const std::vector<int>& weld, std::vector<int>& kept,
+                     Surface& surface) {
+  std::vector<Eigen::Vector3i> triangles;
+  triangles.reserve(kept.size());
+  for (const int t : kept) triangles.push_back(model.triangles[static_cast<std::size_t>(t)]);
+  const DistinctFaces found = merge_coincident(triangles, weld);
+  if (found.kept.size() == kept.size()) return;
+  if (found.copies > 0)
+    warn(surface, model, "coincident_faces",
+         fmt::format("{} faces lie exactly on others, as in models exported twice or "
+                     "double-sided; only the first of them is used",
+                     found.copies));
+  if (found.walls > 0)
+    warn(surface, model, "parts_touch",
+         fmt::format("{} faces divide parts that touch; the parts were united", found.walls));
+  std::vector<int> left;
+  left.reserve(found.kept.size());
+  for (const int i : found.kept) left.push_back(kept[static_cast<std::size_t>(i)]);
+  kept = std::move(left);
 }
 
 Patchwork start(const Model& model, std::vector<int> weld, const std::vector<int>& kept) {
@@ -135,7 +158,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   Surface surface;
   const double tolerance = nothing_mm(model.vertices);
   auto weld = weld_points(model.vertices, tolerance);
-  const auto kept = proper_triangles(model, weld, tolerance);
+  auto kept = proper_triangles(model, weld, tolerance);
   if (kept.empty())
     return fail(Code::kInvalidArgument,
                 name + ": all faces have zero area; export the model again");
@@ -143,6 +166,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     warn(surface, model, "zero_area_faces",
          fmt::format("{} faces whose corners coincide or lie on a line were dropped",
                      model.triangles.size() - kept.size()));
+  drop_coincident(model, weld, kept, surface);
   Patchwork work = start(model, std::move(weld), kept);
   HP_RETURN_IF_ERROR(check_cancelled(context));
 
@@ -151,6 +175,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   const auto orientation = orient(work.points, work.weld, work.triangles, edges);
   if (turn_over(work, orientation.flip)) edges = Edges(work.triangles, work.weld);
   surface.closed = check_edges(model, edges, work, surface);
+  surface.is_flat = orientation.is_flat;
   warn_about_orientation(model, orientation, surface);
   HP_RETURN_IF_ERROR(check_cancelled(context));
 

@@ -1,6 +1,7 @@
 #include "sim/mesh/orient.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -54,6 +55,7 @@ class Orienter {
       }
     }
     for (const auto& patch : patches_) result_.inside_out += patch.turned ? 1 : 0;
+    result_.is_flat = std::ranges::all_of(patches_, &Patch::flat);
     return std::move(result_);
   }
 

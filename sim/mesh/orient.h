@@ -16,6 +16,7 @@ struct Orientation {
   std::size_t inside_out = 0;    ///< shells flipped because their volume was negative
   std::size_t cavities = 0;      ///< closed shells that bound a cavity inside another shell
   std::size_t shells = 0;        ///< parts that share no edge
+  bool is_flat = false;          ///< no part has a volume
 };
 
 /// Orients faces that share an edge of exactly two faces consistently, by flipping the minority.

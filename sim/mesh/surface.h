@@ -22,8 +22,9 @@ struct Surface {
   /// For each triangle and corner, the outward unit normal: weighted by angle over the faces around
   /// the corner that are connected to it without a crease (dihedral angle below 30 degrees).
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
-  bool closed = false;  ///< every welded edge has exactly two triangles, consistently oriented
-  Warnings warnings;    ///< assumptions: open, non-manifold, inside out, several shells
+  bool closed = false;   ///< every welded edge has exactly two triangles, consistently oriented
+  bool is_flat = false;  ///< a sheet without thickness, which encloses nothing
+  Warnings warnings;     ///< assumptions: open, non-manifold, inside out, several shells
 };
 
 }  // namespace hydroprint::mesh

@@ -209,6 +209,7 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
       read_inputs({options.mesh, options.scale, !needs_own_colours(source), true}, context));
   HP_ASSIGN_OR_RETURN(out.surface,
                       mesh::make_surface(out.model, options.dip.surface_edge_mm, context));
+  HP_RETURN_IF_ERROR(check_solid(out.surface, out.model));
   const auto paint = [&](const Context& reading) {
     return read_paint(out.model, source, options.immersions.front().X_FO, reading);
   };

@@ -59,10 +59,19 @@ Result<std::vector<std::optional<velocity::VelocityField>>> solve(
 
 }  // namespace
 
+Status check_solid(const mesh::Surface& surface, const mesh::Model& model) {
+  if (!surface.is_flat) return {};
+  return fail(Code::kInvalidArgument,
+              model.path.string() +
+                  ": the mesh is a sheet without thickness, which encloses nothing. Give it a "
+                  "thickness of at least 0.5 mm in a 3D editor (\"solidify\")");
+}
+
 Result<StokesPass> run_stokes_pass(const mesh::Model& model, const DipOptions& options,
                                    const Context& context) {
   HP_ASSIGN_OR_RETURN(mesh::Surface surface,
                       mesh::make_surface(model, options.surface_edge_mm, context));
+  HP_RETURN_IF_ERROR(check_solid(surface, model));
   return run_stokes_pass(std::move(surface), options, context);
 }
 

@@ -25,6 +25,10 @@ struct StokesPass {
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
 };
 
+/// Returns kInvalidArgument for a surface without thickness, which encloses nothing and would let
+/// no waterline exist; the message names the model.
+[[nodiscard]] Status check_solid(const mesh::Surface& surface, const mesh::Model& model);
+
 /// Computes surface, pose, waterlines, film meshes and velocities. Returns the errors of its
 /// stages.
 [[nodiscard]] Result<StokesPass> run_stokes_pass(const mesh::Model& model,

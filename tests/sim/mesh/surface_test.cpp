@@ -264,6 +264,49 @@ TEST(MakeSurface, ThreeFacesAtOneEdgeAreNonManifold) {
   EXPECT_TRUE(has_warning(made(model), "mesh_non_manifold"));
 }
 
+TEST(MakeSurface, AModelGivenTwiceIsOneSolidWhicheverWayRoundItsCopyIs) {
+  const Model ball = sample::icosphere(20, 3);
+  const Surface once = made(ball);
+  for (const Model& copy : {ball, turned(ball)}) {
+    for (const Model& both : {join(ball, copy), torn(join(ball, copy)), join(copy, ball)}) {
+      const Surface surface = made(both);
+      EXPECT_TRUE(surface.closed);
+      EXPECT_TRUE(has_warning(surface, "coincident_faces"));
+      EXPECT_FALSE(has_warning(surface, "many_shells"));
+      EXPECT_EQ(surface.triangles.size(), once.triangles.size());
+      EXPECT_NEAR(volume(surface), volume(once), 1e-9 * volume(once));
+    }
+  }
+}
+
+TEST(MakeSurface, PartsThatTouchAreUnitedWithoutTheWallBetweenThem) {
+  const Model left = box({0, 0, 0}, {10, 10, 10}), right = box({10, 0, 0}, {20, 10, 10});
+  const Surface two = made(join(left, right));
+  EXPECT_TRUE(two.closed);
+  EXPECT_TRUE(has_warning(two, "parts_touch"));
+  EXPECT_FALSE(has_warning(two, "coincident_faces"));
+  EXPECT_NEAR(volume(two), 2000, 1e-6);
+  EXPECT_NEAR(area(two.points, two.triangles), 2 * 100 + 4 * 200, 1e-6);
+  // Four boxes around an edge: their walls cross there.
+  const Model back = box({0, 10, 0}, {10, 20, 10}), corner = box({10, 10, 0}, {20, 20, 10});
+  const Surface four = made(join(join(left, right), join(back, corner)));
+  EXPECT_TRUE(four.closed);
+  EXPECT_NEAR(volume(four), 4000, 1e-6);
+  EXPECT_NEAR(area(four.points, four.triangles), 2 * 400 + 4 * 200, 1e-6);
+}
+
+TEST(MakeSurface, ADoubleSidedSheetStaysOneSheetWithoutThickness) {
+  Model plate;
+  plate.path = "plate";
+  plate.vertices = {{0, 0, 0}, {30, 0, 0}, {30, 30, 0}, {0, 30, 0}};
+  plate.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Surface surface = made(join(plate, turned(plate)));
+  EXPECT_TRUE(surface.is_flat);
+  EXPECT_TRUE(has_warning(surface, "coincident_faces"));
+  EXPECT_NEAR(area(surface.points, surface.triangles), 900, 1e-9);
+  EXPECT_FALSE(made(box({0, 0, 0}, {30, 30, 0.1})).is_flat);
+}
+
 TEST(MakeSurface, FacesWithoutAreaAreDroppedWithAWarning) {
   Model model = box({0, 0, 0}, {10, 10, 10});
   model.triangles.emplace_back(0, 0, 1);
