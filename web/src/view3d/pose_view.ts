@@ -2,7 +2,6 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  ClampToEdgeWrapping,
   DoubleSide,
   Group,
   Mesh as Mesh3,
@@ -12,19 +11,24 @@ import {
   SRGBColorSpace,
   Texture,
   Vector3,
-  type Wrapping,
 } from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
 import type { Film } from '../model/film';
 import { centreOf, type Box, type Mesh } from '../model/mesh';
-import { rotate, type Pose, type Quaternion, type Vec3 } from '../model/pose';
-import { isSamePlace, projectPicture, type FlatPicture } from '../model/projection';
+import { rotate, type Pose, type Vec3 } from '../model/pose';
+import type { Paint } from '../paint/paint';
 import { Stage, disposeOf, type Side } from './stage';
 
 /** Appearance of a part of the mesh; the first row of `picture` is at the top. */
 export interface Look {
   colour: readonly [number, number, number];
   picture?: ImageBitmap;
+}
+
+/** A point of the object's surface, with the outward normal (length 1) of its triangle; frame O. */
+export interface SurfacePoint {
+  point_mm: Vec3;
+  normal: Vec3;
 }
 
 export type Gizmo = 'none' | 'rotate' | 'translate';
@@ -39,8 +43,6 @@ export class PoseView {
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private positions = new Float32Array();
   private scale = 1;
-  // The picture that is projected onto the object, with the rotation for which its place was computed.
-  private flat: { picture: FlatPicture; indices: Uint32Array; rotation?: Quaternion } | undefined;
 
   /** @param onPose  called while the user rotates or moves the object */
   constructor(
@@ -64,28 +66,16 @@ export class PoseView {
     this.stage.setFilm(film);
   }
 
-  /**
-   * Shows a mesh; `lookOf` returns the appearance of a material. `flat` places the pictures on a mesh without texture
-   * coordinates. Must be followed by `setPose`.
-   */
-  setMesh(
-    mesh: Mesh,
-    box: Box,
-    scale: number,
-    lookOf: (material: string) => Look,
-    flat?: FlatPicture,
-  ): void {
+  /** Shows a mesh; `lookOf` returns the appearance of a material. Must be followed by `setPose`. */
+  setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
     disposeOf(this.holder);
     this.holder.clear();
     this.box = box;
     this.scale = scale;
     this.positions = new Float32Array(mesh.positions);
-    this.flat = flat && { picture: flat, indices: mesh.indices };
-    const uvs = flat ? new Float32Array((2 * mesh.positions.length) / 3) : mesh.uvs;
-    const wrap = flat ? ClampToEdgeWrapping : RepeatWrapping;
     const object = new Mesh3(
-      geometryOf(mesh, uvs),
-      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined, wrap)),
+      geometryOf(mesh),
+      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined)),
     );
     const [x, y, z] = centreOf(box);
     object.position.set(-x * scale, -y * scale, -z * scale);
@@ -93,6 +83,26 @@ export class PoseView {
     this.object = object;
     this.holder.add(object);
     this.stage.draw();
+  }
+
+  /**
+   * Shows a paint on the object, on this mesh and later ones; without one, the model's own look. Fast unless the layers
+   * change in number, kind, or pictures, so it may be called while the user drags.
+   */
+  setPaint(paint: Paint | undefined): void {
+    void paint;
+    this.stage.draw();
+  }
+
+  /** The point of the object at a place on the screen (`clientX`, `clientY` of a pointer event), if there is one. */
+  hit(clientX: number, clientY: number): SurfacePoint | undefined {
+    void [clientX, clientY];
+    return undefined;
+  }
+
+  /** Stops the camera and the gizmo from following the pointer, while the user drags something else. */
+  holdCamera(isHeld: boolean): void {
+    this.stage.controls.enabled = !isHeld;
   }
 
   /** Shows a coloured mesh (object's frame, mm) instead of the textured object; without one, the textured object. */
@@ -122,14 +132,12 @@ export class PoseView {
     this.holder.clear();
     this.positions = new Float32Array();
     this.object = undefined;
-    this.flat = undefined;
     this.stage.draw();
   }
 
   setPose(pose: Pose): void {
     const [w, x, y, z] = pose.rotation;
     this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
-    this.placePicture(pose.rotation);
     this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
     this.stage.draw();
   }
@@ -157,17 +165,6 @@ export class PoseView {
   dispose(): void {
     this.gizmo.dispose();
     this.stage.dispose();
-  }
-
-  private placePicture(rotation: Quaternion): void {
-    if (!this.flat || !this.object) return;
-    const { picture, indices, rotation: last } = this.flat;
-    if (last && isSamePlace(picture, last, rotation)) return;
-    const uvs = this.object.geometry.getAttribute('uv') as BufferAttribute;
-    const mesh = { positions: this.positions, indices };
-    projectPicture(mesh, rotation, picture, uvs.array as Float32Array);
-    uvs.needsUpdate = true;
-    this.flat.rotation = rotation;
   }
 
   private emitPose(): void {
@@ -208,10 +205,10 @@ function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
   return least;
 }
 
-function geometryOf(mesh: Mesh, uvs: Float32Array | undefined): BufferGeometry {
+function geometryOf(mesh: Mesh): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
-  if (uvs) geometry.setAttribute('uv', new BufferAttribute(uvs, 2));
+  if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
   if (mesh.colours) geometry.setAttribute('color', new BufferAttribute(mesh.colours, 3, true));
   geometry.setIndex(new BufferAttribute(mesh.indices, 1));
   mesh.parts.forEach((part, i) => geometry.addGroup(part.first, part.count, i));
@@ -219,7 +216,7 @@ function geometryOf(mesh: Mesh, uvs: Float32Array | undefined): BufferGeometry {
   return geometry;
 }
 
-function materialOf(look: Look, hasColours: boolean, wrap: Wrapping): MeshStandardMaterial {
+function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
   const material = new MeshStandardMaterial({
     roughness: 0.85,
     side: DoubleSide,
@@ -228,7 +225,7 @@ function materialOf(look: Look, hasColours: boolean, wrap: Wrapping): MeshStanda
   material.color.setRGB(...look.colour, SRGBColorSpace);
   if (look.picture) {
     material.map = textureOf(look.picture);
-    material.map.wrapS = material.map.wrapT = wrap;
+    material.map.wrapS = material.map.wrapT = RepeatWrapping;
   }
   return material;
 }

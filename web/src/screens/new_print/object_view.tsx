@@ -4,7 +4,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
 import type { Side } from '../../view3d/stage';
 import { colourOf, place, type Scale } from '../../model/colour_map';
-import type { FlatPicture } from '../../model/projection';
+import { readPicture, type Paint } from '../../paint/paint';
 import { Switch } from '../../ui/controls';
 import { Legend } from '../../ui/legend';
 import { calibrated } from './calibration';
@@ -27,31 +27,26 @@ async function pictures(): Promise<Map<File, ImageBitmap>> {
   const files = [texture, ...[...materials.values()].map((material) => material.file)];
   for (const file of files) {
     if (!file || out.has(file)) continue;
-    const bitmap = await createImageBitmap(file).catch(() => undefined);
+    const bitmap = await readPicture(file);
     if (bitmap) out.set(file, bitmap);
   }
   return out;
 }
 
-function lookOf(material: string, ready: Map<File, ImageBitmap>, flat?: FlatPicture): Look {
-  const { materials, texture } = arrangement.value;
-  const known = materials.get(material);
-  const file = texture ?? known?.file;
-  const hasPlace = flat !== undefined || shape.value?.mesh.uvs !== undefined;
-  const picture = file && hasPlace && ready.get(file);
+function lookOf(material: string, ready: Map<File, ImageBitmap>): Look {
+  const known = arrangement.value.materials.get(material);
+  const picture = known?.file && shape.value?.mesh.uvs && ready.get(known.file);
   if (picture) return { colour: [1, 1, 1], picture };
   return { colour: known?.colour ?? [0.85, 0.85, 0.85] };
 }
 
-/** How the texture is projected, if the model lacks texture coordinates and the view can show the projection. */
-function flatPicture(ready: Map<File, ImageBitmap>): FlatPicture | undefined {
+/** The object's texture as a layer. */
+function paintOf(ready: Map<File, ImageBitmap>): Paint | undefined {
   const { texture } = arrangement.value;
   const picture = texture && ready.get(texture);
-  const { kind = 'dip', size_mm, turn_deg = 0 } = projection.value;
-  if (!picture || !lacksCoordinates.value || (kind !== 'dip' && kind !== 'planar'))
-    return undefined;
-  const width = size_mm && size_mm / scale.value;
-  return { kind, width, turn_deg, aspect: picture.width / picture.height };
+  if (!picture) return undefined;
+  const { kind = lacksCoordinates.value ? 'dip' : 'uv', ...rest } = projection.value;
+  return { layers: [{ layer: { projection: kind, ...rest }, picture }] };
 }
 
 export function ObjectView() {
@@ -160,8 +155,8 @@ function follow(view: PoseView): () => void {
       if (!now) return view.clear();
       return void pictures().then((ready) => {
         if (turn !== count) return;
-        const flat = flatPicture(ready);
-        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready, flat), flat);
+        view.setPaint(paintOf(ready));
+        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready));
         view.setPose(pose.peek());
         view.setHeat(shown.value && coat.peek() === 'stretch' ? heatOf(shown.value) : undefined);
       });
