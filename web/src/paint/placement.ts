@@ -98,8 +98,25 @@ function axesOf(layer: PaintLayer, rotation: Quaternion): Axes {
   return { right: toO(right), up: toO(up), direction: toO(direction) };
 }
 
-/** The sides of the bounding box with the directions r, u and d, and its middle in frame O; mm. */
-function boxAlong({ right, up, direction }: Axes, solid: Solid): { sides: Vec3; middle: Vec3 } {
+/** A bounding box with the directions r, u and d: its sides, and its middle in frame O; mm. */
+interface AxesBox {
+  sides: Vec3;
+  middle: Vec3;
+}
+
+// The last box of each mesh. While a picture is dragged, the axes often stay.
+const lastBoxes = new WeakMap<Float32Array, { key: string; box: AxesBox }>();
+
+function boxAlong(axes: Axes, solid: Solid): AxesBox {
+  const key = JSON.stringify([axes, solid.scale]);
+  const last = lastBoxes.get(solid.positions);
+  if (last?.key === key) return last.box;
+  const box = computeBox(axes, solid);
+  lastBoxes.set(solid.positions, { key, box });
+  return box;
+}
+
+function computeBox({ right, up, direction }: Axes, solid: Solid): AxesBox {
   const { positions, indices, scale = 1 } = solid;
   const [rx, ry, rz] = right;
   const [ux, uy, uz] = up;

@@ -7,23 +7,20 @@ import {
   Mesh as Mesh3,
   MeshStandardMaterial,
   Quaternion as Quaternion3,
-  RepeatWrapping,
-  SRGBColorSpace,
-  Texture,
+  Raycaster,
+  Vector2,
   Vector3,
 } from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
 import type { Film } from '../model/film';
 import { centreOf, type Box, type Mesh } from '../model/mesh';
 import { rotate, type Pose, type Vec3 } from '../model/pose';
+import type { Look } from '../paint/material';
 import type { Paint } from '../paint/paint';
+import { PaintedObject } from '../paint/painted_object';
 import { Stage, disposeOf, type Side } from './stage';
 
-/** Appearance of a part of the mesh; the first row of `picture` is at the top. */
-export interface Look {
-  colour: readonly [number, number, number];
-  picture?: ImageBitmap;
-}
+export type { Look };
 
 /** A point of the object's surface, with the outward normal (length 1) of its triangle; frame O. */
 export interface SurfacePoint {
@@ -38,7 +35,7 @@ export class PoseView {
   // Its origin is the centre of the object's bounding box, about which the object rotates.
   private readonly holder = new Group();
   private readonly gizmo: TransformControls;
-  private object: Mesh3 | undefined;
+  private readonly painted: PaintedObject;
   private heat = new Mesh3();
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private positions = new Float32Array();
@@ -50,6 +47,7 @@ export class PoseView {
     private readonly onPose: (pose: Pose) => void,
   ) {
     this.stage = new Stage(host);
+    this.painted = new PaintedObject(this.stage.renderer, () => this.stage.draw());
     this.gizmo = new TransformControls(this.stage.camera, this.stage.renderer.domElement);
     this.gizmo.setSpace('world');
     this.gizmo.attach(this.holder);
@@ -68,19 +66,14 @@ export class PoseView {
 
   /** Shows a mesh; `lookOf` returns the appearance of a material. Must be followed by `setPose`. */
   setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
-    disposeOf(this.holder);
-    this.holder.clear();
+    this.clear();
     this.box = box;
     this.scale = scale;
     this.positions = new Float32Array(mesh.positions);
-    const object = new Mesh3(
-      geometryOf(mesh),
-      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined)),
-    );
-    const [x, y, z] = centreOf(box);
-    object.position.set(-x * scale, -y * scale, -z * scale);
+    this.painted.setMesh(mesh, box, scale, lookOf);
+    const { object } = this.painted;
+    object.position.copy(this.originOfO());
     object.scale.setScalar(scale);
-    this.object = object;
     this.holder.add(object);
     this.stage.draw();
   }
@@ -90,26 +83,39 @@ export class PoseView {
    * change in number, kind, or pictures, so it may be called while the user drags.
    */
   setPaint(paint: Paint | undefined): void {
-    void paint;
+    this.painted.setPaint(paint);
     this.stage.draw();
   }
 
   /** The point of the object at a place on the screen (`clientX`, `clientY` of a pointer event), if there is one. */
   hit(clientX: number, clientY: number): SurfacePoint | undefined {
-    void [clientX, clientY];
-    return undefined;
+    const { object } = this.painted;
+    const canvas = this.stage.renderer.domElement.getBoundingClientRect();
+    const at = new Vector2(
+      (2 * (clientX - canvas.left)) / canvas.width - 1,
+      1 - (2 * (clientY - canvas.top)) / canvas.height,
+    );
+    const raycaster = new Raycaster();
+    raycaster.setFromCamera(at, this.stage.camera);
+    object.updateWorldMatrix(true, false);
+    const ray = raycaster.ray.applyMatrix4(object.matrixWorld.clone().invert());
+    const hit = this.painted.hit(ray.origin.toArray(), ray.direction.toArray());
+    if (!hit) return undefined;
+    const [x, y, z] = hit.point;
+    return { point_mm: [x * this.scale, y * this.scale, z * this.scale], normal: hit.normal };
   }
 
   /** Stops the camera and the gizmo from following the pointer, while the user drags something else. */
   holdCamera(isHeld: boolean): void {
     this.stage.controls.enabled = !isHeld;
+    this.gizmo.enabled = !isHeld && this.gizmo.getHelper().visible;
   }
 
   /** Shows a coloured mesh (object's frame, mm) instead of the textured object; without one, the textured object. */
   setHeat(heat?: { positions: Float32Array; corners: Uint32Array; colours: Uint8Array }): void {
     this.holder.remove(this.heat);
     disposeOf(this.heat);
-    if (this.object) this.object.visible = heat === undefined;
+    this.painted.object.visible = heat === undefined;
     if (heat) {
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', new BufferAttribute(heat.positions, 3));
@@ -120,24 +126,24 @@ export class PoseView {
         geometry,
         new MeshStandardMaterial({ roughness: 0.9, side: DoubleSide, vertexColors: true }),
       );
-      const [x, y, z] = centreOf(this.box);
-      this.heat.position.set(-x * this.scale, -y * this.scale, -z * this.scale);
+      this.heat.position.copy(this.originOfO());
       this.holder.add(this.heat);
     }
     this.stage.draw();
   }
 
   clear(): void {
-    disposeOf(this.holder);
+    this.painted.clear();
+    disposeOf(this.heat);
     this.holder.clear();
     this.positions = new Float32Array();
-    this.object = undefined;
     this.stage.draw();
   }
 
   setPose(pose: Pose): void {
     const [w, x, y, z] = pose.rotation;
     this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
+    this.painted.setRotation(pose.rotation);
     this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
     this.stage.draw();
   }
@@ -164,7 +170,14 @@ export class PoseView {
 
   dispose(): void {
     this.gizmo.dispose();
+    this.painted.dispose();
     this.stage.dispose();
+  }
+
+  /** The origin of frame O, relative to the centre of the bounding box. */
+  private originOfO(): Vector3 {
+    const [x, y, z] = centreOf(this.box);
+    return new Vector3(x, y, z).multiplyScalar(-this.scale);
   }
 
   private emitPose(): void {
@@ -174,6 +187,7 @@ export class PoseView {
       centre_mm: [this.holder.position.x, this.holder.position.y],
     };
     this.holder.position.z = this.heightFor(pose);
+    this.painted.setRotation(pose.rotation);
     this.onPose(pose);
   }
 
@@ -203,42 +217,4 @@ function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
     if (z < least) least = z;
   }
   return least;
-}
-
-function geometryOf(mesh: Mesh): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
-  if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
-  if (mesh.colours) geometry.setAttribute('color', new BufferAttribute(mesh.colours, 3, true));
-  geometry.setIndex(new BufferAttribute(mesh.indices, 1));
-  mesh.parts.forEach((part, i) => geometry.addGroup(part.first, part.count, i));
-  geometry.computeVertexNormals();
-  return geometry;
-}
-
-function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({
-    roughness: 0.85,
-    side: DoubleSide,
-    vertexColors: hasColours && !look.picture,
-  });
-  material.color.setRGB(...look.colour, SRGBColorSpace);
-  if (look.picture) {
-    material.map = textureOf(look.picture);
-    material.map.wrapS = material.map.wrapT = RepeatWrapping;
-  }
-  return material;
-}
-
-/** Creates a texture with v pointing up, as in models. */
-export function textureOf(picture: ImageBitmap): Texture {
-  const texture = new Texture(picture);
-  // Browsers do not flip an ImageBitmap for WebGL, so the texture's transform flips it.
-  texture.flipY = false;
-  texture.matrixAutoUpdate = false;
-  texture.matrix.set(1, 0, 0, 0, -1, 1, 0, 0, 1);
-  texture.colorSpace = SRGBColorSpace;
-  texture.anisotropy = 8;
-  texture.needsUpdate = true;
-  return texture;
 }

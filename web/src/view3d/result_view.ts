@@ -10,7 +10,9 @@ import {
   OrthographicCamera,
   Quaternion as Quaternion3,
   Scene,
+  SRGBColorSpace,
   SphereGeometry,
+  Texture,
   Vector2,
   Vector3,
 } from 'three';
@@ -18,7 +20,6 @@ import { colourOf, kNoValue, place, type Rgb, type Scale } from '../model/colour
 import type { Film } from '../model/film';
 import type { Quaternion, Vec3 } from '../model/pose';
 import type { SurfaceMap } from '../model/surface_map';
-import { textureOf } from './pose_view';
 import { Stage, type Side } from './stage';
 
 export type Mode = 'predicted' | 'stretch' | 'contact';
@@ -274,4 +275,17 @@ function areNeighbours(map: SurfaceMap, a: number, b: number): boolean {
     return Math.sqrt(sum);
   };
   return apart(map.film_mm, 2) <= 1 + 4 * apart(map.positions, 3);
+}
+
+/** Creates a texture with v pointing up, as in models. */
+function textureOf(picture: ImageBitmap): Texture {
+  const texture = new Texture(picture);
+  // Browsers do not flip an ImageBitmap for WebGL, so the texture's transform flips it.
+  texture.flipY = false;
+  texture.matrixAutoUpdate = false;
+  texture.matrix.set(1, 0, 0, 0, -1, 1, 0, 0, 1);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
 }

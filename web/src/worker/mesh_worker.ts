@@ -1,4 +1,4 @@
-/** Reads models and surface maps in a separate thread, so that the page stays responsive. */
+/** Reads models and surface maps, and prepares paints, in a separate thread, so that the page stays responsive. */
 import { readGltf } from '../model/gltf';
 import { boxOf, type Mesh } from '../model/mesh';
 import { decodeText } from '../model/mtl';
@@ -7,6 +7,7 @@ import { readPlyMesh } from '../model/ply_mesh';
 import { attempt } from '../model/result';
 import { readStl } from '../model/stl';
 import { readSurfaceMap } from '../model/surface_map';
+import { axisDistances } from '../paint/axis_distance';
 import type { Answer, Question } from './reader';
 
 const readObjBytes = (bytes: ArrayBuffer): Mesh => readObj(decodeText(bytes));
@@ -18,6 +19,10 @@ const kReaders: Record<string, (bytes: ArrayBuffer) => Mesh> = {
 };
 
 function read(question: Question): Answer {
+  if (question.what === 'axis_distances') {
+    const { surface, boxes } = question;
+    return { what: 'axis_distances', result: attempt(() => axisDistances(surface, boxes)) };
+  }
   const { bytes } = question;
   if (question.what === 'surface_map')
     return { what: 'surface_map', result: attempt(() => readSurfaceMap(bytes)) };

@@ -2,13 +2,20 @@
 import type { Box, Mesh } from '../model/mesh';
 import { refused, type Result } from '../model/result';
 import type { SurfaceMap } from '../model/surface_map';
+import type { BoxLayer, FineMesh } from '../paint/axis_distance';
 
 export type Question =
   | { what: 'mesh'; name: string; bytes: ArrayBuffer }
-  | { what: 'surface_map'; bytes: ArrayBuffer };
+  | { what: 'surface_map'; bytes: ArrayBuffer }
+  | {
+      what: 'axis_distances';
+      surface: { positions: Float32Array; indices: Uint32Array };
+      boxes: (BoxLayer | undefined)[];
+    };
 export type Answer =
   | { what: 'mesh'; result: Result<{ mesh: Mesh; box: Box }> }
-  | { what: 'surface_map'; result: Result<SurfaceMap> };
+  | { what: 'surface_map'; result: Result<SurfaceMap> }
+  | { what: 'axis_distances'; result: Result<FineMesh> };
 
 let worker: Worker | undefined;
 let count = 0;
@@ -36,7 +43,7 @@ function ask(question: Question): Promise<Answer | undefined> {
   const id = count;
   return new Promise((resolve) => {
     waiting.set(id, resolve);
-    worker!.postMessage({ id, question }, [question.bytes]);
+    worker!.postMessage({ id, question }, 'bytes' in question ? [question.bytes] : []);
   });
 }
 
@@ -55,4 +62,13 @@ export async function readMesh(file: File): Promise<Result<{ mesh: Mesh; box: Bo
 export async function readMap(bytes: ArrayBuffer): Promise<Result<SurfaceMap>> {
   const answer = await ask({ what: 'surface_map', bytes });
   return answer?.what === 'surface_map' ? answer.result : kTooMuch;
+}
+
+/** Subdivides a mesh (mm) for the 'box' layers of a paint; undefined if the browser has too little memory. */
+export async function findDistances(
+  surface: { positions: Float32Array; indices: Uint32Array },
+  boxes: (BoxLayer | undefined)[],
+): Promise<FineMesh | undefined> {
+  const answer = await ask({ what: 'axis_distances', surface, boxes });
+  return answer?.what === 'axis_distances' && answer.result.ok ? answer.result.value : undefined;
 }

@@ -1,0 +1,85 @@
+/** Draws paints with the page's materials for paint.e2e.ts: without light, and with an orthographic camera. */
+import { OrthographicCamera, Scene, Vector3, WebGLRenderer } from 'three';
+import { boxOf, centreOf } from '../src/model/mesh';
+import type { Vec3 } from '../src/model/pose';
+import type { PaintLayer } from '../src/paint/layer';
+import { readPicture } from '../src/paint/paint';
+import { PaintedObject } from '../src/paint/painted_object';
+import { readMesh } from '../src/worker/reader';
+
+export interface Drawing {
+  /** Name and bytes (base64) of the mesh's file. */
+  mesh: { name: string; bytes: string };
+  base_colour?: string;
+  /** `picture`: a PNG, base64. */
+  layers: { layer: PaintLayer; picture?: string; colour?: string }[];
+  pixels: number;
+  half_mm: number;
+  direction: Vec3;
+  up: Vec3;
+}
+
+const bytesOf = (base64: string) => Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+
+function base64Of(bytes: Uint8Array): string {
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 8192)
+    text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(text);
+}
+
+function cameraOf({ half_mm: h, direction, up }: Drawing, middle: Vector3): OrthographicCamera {
+  const camera = new OrthographicCamera(-h, h, h, -h, 0, 20 * h);
+  const ahead = new Vector3(...direction).normalize();
+  camera.up.set(...up);
+  camera.position.copy(middle).addScaledVector(ahead, -10 * h);
+  camera.lookAt(middle);
+  return camera;
+}
+
+/** Returns the pixels, red, green, blue, alpha, from the upper left; base64. Alpha is 0 where nothing is seen. */
+async function draw(drawing: Drawing): Promise<string> {
+  const { pixels, layers, base_colour } = drawing;
+  const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true });
+  renderer.setSize(pixels, pixels);
+  const painted = new PaintedObject(renderer, () => {}, false);
+  const file = new File([bytesOf(drawing.mesh.bytes)], drawing.mesh.name);
+  const read = await readMesh(file);
+  if (!read.ok) throw new Error(read.failure.what);
+  const { mesh } = read.value;
+  const box = boxOf(mesh);
+  painted.setMesh(mesh, box, 1, () => ({ colour: [1, 1, 1] }));
+  const withPictures = layers.map(async ({ layer, picture, colour }) => ({
+    layer,
+    colour,
+    picture: picture ? await readPicture(new Blob([bytesOf(picture)])) : undefined,
+  }));
+  painted.setPaint({ base_colour, layers: await Promise.all(withPictures) });
+  await painted.settled();
+  const scene = new Scene();
+  scene.add(painted.object);
+  renderer.render(scene, cameraOf(drawing, new Vector3(...centreOf(box))));
+  const out = pixelsOf(renderer, pixels);
+  painted.dispose();
+  renderer.dispose();
+  renderer.forceContextLoss();
+  return base64Of(out);
+}
+
+function pixelsOf(renderer: WebGLRenderer, pixels: number): Uint8Array {
+  const gl = renderer.getContext();
+  const upward = new Uint8Array(4 * pixels * pixels);
+  gl.readPixels(0, 0, pixels, pixels, gl.RGBA, gl.UNSIGNED_BYTE, upward);
+  const out = new Uint8Array(upward.length);
+  const row = 4 * pixels;
+  for (let y = 0; y < pixels; y += 1)
+    out.set(upward.subarray((pixels - 1 - y) * row, (pixels - y) * row), y * row);
+  return out;
+}
+
+declare global {
+  interface Window {
+    drawPaint: typeof draw;
+  }
+}
+window.drawPaint = draw;
