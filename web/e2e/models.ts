@@ -1,6 +1,6 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { deflateSync } from 'node:zlib';
+import { pngOf } from './png';
 
 /** Writes a ball of radius 1 (in units of the file) with a striped texture: ball.obj, ball.mtl, ball.png. */
 export function makeBall(folder: string): { obj: string; mtl: string; png: string } {
@@ -96,39 +96,5 @@ function glb(json: string, bytes: Buffer): Buffer {
 }
 
 /** A striped PNG of `size` by `size` pixels. */
-function stripes(size: number): Buffer {
-  const rows = Array.from({ length: size }, (_, y) => [
-    0,
-    ...Array.from({ length: size }, (_, x) =>
-      (x >> 3) % 2 ? [200, 40 + 3 * y, 30] : [20, 60, 40 + 3 * y],
-    ).flat(),
-  ]);
-  const head = Buffer.alloc(13);
-  head.writeUInt32BE(size, 0);
-  head.writeUInt32BE(size, 4);
-  head.set([8, 2, 0, 0, 0], 8);
-  return Buffer.concat([
-    Buffer.from([0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10]),
-    chunk('IHDR', head),
-    chunk('IDAT', deflateSync(Buffer.from(rows.flat()))),
-    chunk('IEND', Buffer.alloc(0)),
-  ]);
-}
-
-function chunk(name: string, data: Buffer): Buffer {
-  const body = Buffer.concat([Buffer.from(name, 'latin1'), data]);
-  const out = Buffer.alloc(body.length + 8);
-  out.writeUInt32BE(data.length, 0);
-  body.copy(out, 4);
-  out.writeUInt32BE(crc32(body), body.length + 4);
-  return out;
-}
-
-function crc32(bytes: Buffer): number {
-  let crc = 0xffffffff;
-  for (const byte of bytes) {
-    crc ^= byte;
-    for (let bit = 0; bit < 8; bit += 1) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-  }
-  return (crc ^ 0xffffffff) >>> 0;
-}
+const stripes = (size: number): Buffer =>
+  pngOf(size, size, (x, y) => ((x >> 3) % 2 ? [200, 40 + 3 * y, 30] : [20, 60, 40 + 3 * y]));

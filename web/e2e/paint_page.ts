@@ -77,9 +77,21 @@ function pixelsOf(renderer: WebGLRenderer, pixels: number): Uint8Array {
   return out;
 }
 
+/** Returns the pixels of a PNG (base64), as those of draw(). */
+async function read(png: string): Promise<string> {
+  const picture = await createImageBitmap(new Blob([bytesOf(png)]));
+  const canvas = new OffscreenCanvas(picture.width, picture.height);
+  const context = canvas.getContext('2d')!;
+  context.drawImage(picture, 0, 0);
+  const { data } = context.getImageData(0, 0, picture.width, picture.height);
+  return base64Of(new Uint8Array(data.buffer));
+}
+
 declare global {
   interface Window {
     drawPaint: typeof draw;
+    readPng: typeof read;
   }
 }
 window.drawPaint = draw;
+window.readPng = read;

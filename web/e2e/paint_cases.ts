@@ -1,0 +1,134 @@
+/** Paints for paint.e2e.ts. */
+import type { Vec3 } from '../src/model/pose';
+import type { PaintLayer } from '../src/paint/layer';
+import { pngOf } from './png';
+
+export interface Case {
+  name: string;
+  base_colour?: string;
+  layers: { layer: PaintLayer; picture?: PictureName; colour?: string }[];
+}
+
+/** Waves that fit at the edges, so that the pictures may repeat. */
+const wave = (turns: number): number => 0.5 + 0.45 * Math.sin(2 * Math.PI * turns);
+const byte = (value: number): number => Math.round(255 * value);
+
+const kPictures = {
+  'wide.png': () =>
+    pngOf(480, 320, (x, y) => {
+      const [u, v] = [x / 480, y / 320];
+      return [byte(wave(u + v)), byte(wave(2 * u - v)), byte(wave(2 * v + 0.2))];
+    }),
+  'tall.png': () =>
+    pngOf(240, 400, (x, y) => {
+      const [u, v] = [x / 240, y / 400];
+      return [byte(wave(v + 0.3)), byte(wave(u + 0.6)), byte(wave(u - 2 * v))];
+    }),
+  'glass.png': () =>
+    pngOf(300, 300, (x, y) => {
+      const [u, v] = [x / 300, y / 300];
+      return [byte(wave(u)), byte(wave(v)), byte(wave(u + v)), byte(wave(u - v + 0.1))];
+    }),
+};
+export type PictureName = keyof typeof kPictures;
+
+/** The pictures as PNG files. */
+export const pictures = (): Record<PictureName, Buffer> => ({
+  'wide.png': kPictures['wide.png'](),
+  'tall.png': kPictures['tall.png'](),
+  'glass.png': kPictures['glass.png'](),
+});
+
+const kSlanted: Vec3 = [0.4, 1, -0.3];
+
+export const kCases: Case[] = [
+  { name: 'planar', layers: [{ layer: { projection: 'planar' }, picture: 'wide.png' }] },
+  {
+    name: 'planar-slanted',
+    layers: [
+      {
+        layer: {
+          projection: 'planar',
+          direction: [-0.4, 1, 0.7],
+          size_mm: 28,
+          turn_deg: 200,
+          mirror: true,
+          repeat: true,
+        },
+        picture: 'tall.png',
+      },
+    ],
+  },
+  {
+    name: 'dip',
+    base_colour: '#1f4fa8',
+    layers: [
+      { layer: { projection: 'dip', up: [0.9, 0.4, 0.3], opacity: 0.6 }, picture: 'wide.png' },
+    ],
+  },
+  { name: 'cylindrical', layers: [{ layer: { projection: 'cylindrical' }, picture: 'wide.png' }] },
+  {
+    name: 'cylindrical-turned',
+    layers: [
+      {
+        layer: {
+          projection: 'cylindrical',
+          direction: [1, 0.2, 0.3],
+          up: [0, 1, 0],
+          size_mm: 40,
+          turn_deg: 100,
+          mirror: true,
+        },
+        picture: 'tall.png',
+      },
+    ],
+  },
+  {
+    name: 'cylindrical-once',
+    layers: [
+      {
+        layer: { projection: 'cylindrical', repeat: false, size_mm: 90, position_mm: [2, 1, 3] },
+        picture: 'wide.png',
+      },
+    ],
+  },
+  { name: 'box', layers: [{ layer: { projection: 'box' }, picture: 'wide.png' }] },
+  {
+    name: 'box-slanted',
+    base_colour: '#f0e020',
+    layers: [
+      {
+        layer: {
+          projection: 'box',
+          direction: kSlanted,
+          up: [-0.1, 0.1, 1],
+          size_mm: 25,
+          turn_deg: -20,
+          blend_mm: 9,
+          opacity: 0.7,
+        },
+        picture: 'tall.png',
+      },
+    ],
+  },
+  {
+    name: 'decal',
+    base_colour: '#30a050',
+    layers: [
+      {
+        layer: { projection: 'decal', direction: kSlanted, turn_deg: 30, depth_mm: 40 },
+        picture: 'glass.png',
+      },
+    ],
+  },
+  {
+    name: 'layers',
+    base_colour: '#808080',
+    layers: [
+      { layer: { projection: 'box', size_mm: 40, blend_mm: 6 }, picture: 'glass.png' },
+      { layer: { projection: 'decal', direction: [0, 1, 0], size_mm: 20 }, colour: '#c02010' },
+      { layer: { projection: 'cylindrical', opacity: 0.5 }, picture: 'glass.png' },
+      { layer: { projection: 'decal', direction: [1, 0, 0], size_mm: 30 }, picture: 'tall.png' },
+    ],
+  },
+];
