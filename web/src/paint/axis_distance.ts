@@ -31,7 +31,7 @@ export interface FineMesh {
 }
 
 /** Where axes blend, edges have at most this share of the blend's width. */
-const kEdgePerBlend = 0.25;
+const kEdgePerBlend = 1 / 6;
 /** Distances are stored up to this multiple of the blend's width. */
 const kFurthest = 2;
 const kMostTriangles = 400_000;
