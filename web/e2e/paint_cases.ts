@@ -132,3 +132,31 @@ export const kCases: Case[] = [
     ],
   },
 ];
+
+/** Paints for a mesh with texture coordinates. */
+export const kUvCases: Case[] = [
+  {
+    name: 'uv',
+    base_colour: '#30a050',
+    layers: [{ layer: { projection: 'uv', opacity: 0.8 }, picture: 'glass.png' }],
+  },
+  {
+    name: 'uv-once',
+    layers: [
+      { layer: { projection: 'uv', repeat: false }, picture: 'wide.png' },
+      { layer: { projection: 'decal', direction: kSlanted, size_mm: 25 }, picture: 'glass.png' },
+    ],
+  },
+  { name: 'box-over-uv', layers: [{ layer: { projection: 'box' }, picture: 'wide.png' }] },
+];
+
+/** Paints for a mesh with colours of its vertices. */
+export const kColourCases: Case[] = [
+  {
+    name: 'vertex-colours',
+    layers: [
+      { layer: { projection: 'vertex_colors' } },
+      { layer: { projection: 'planar', direction: kSlanted, size_mm: 30 }, picture: 'glass.png' },
+    ],
+  },
+];

@@ -1,4 +1,4 @@
-/** Solids as STL files. */
+/** Solids as files. */
 
 type Point = readonly [number, number, number];
 type Triangle = readonly [Point, Point, Point];
@@ -49,21 +49,80 @@ export function bracket(): Buffer {
   return stlOf(tubeOf([ring(15), ring(-15)]));
 }
 
-/** A ball of radius 25 mm around (5, -4, 30). */
-export function ball(): Buffer {
-  const [around, down] = [64, 32];
-  const at = (i: number, j: number): Point => {
-    const [a, b] = [(2 * Math.PI * (i % around)) / around, (Math.PI * j) / down];
-    const r = j === 0 || j === down ? 0 : Math.sin(b);
-    return [5 + 25 * r * Math.cos(a), -4 + 25 * r * Math.sin(a), 30 + 25 * Math.cos(b)];
-  };
-  const out: Triangle[] = [];
-  for (let j = 0; j < down; j += 1)
-    for (let i = 0; i < around; i += 1) {
-      if (j < down - 1) out.push([at(i, j), at(i, j + 1), at(i + 1, j + 1)]);
-      if (j > 0) out.push([at(i, j), at(i + 1, j + 1), at(i + 1, j)]);
+const kAround = 64;
+const kDown = 32;
+
+/** A point of a ball of radius 25 mm around (5, -4, 30). */
+function onBall(i: number, j: number): Point {
+  const [a, b] = [(2 * Math.PI * (i % kAround)) / kAround, (Math.PI * j) / kDown];
+  const r = j === 0 || j === kDown ? 0 : Math.sin(b);
+  return [5 + 25 * r * Math.cos(a), -4 + 25 * r * Math.sin(a), 30 + 25 * Math.cos(b)];
+}
+
+/** The corners of the triangles of a ball: the arguments of onBall(). */
+function cornersOfBall(): (readonly [number, number])[][] {
+  const out: (readonly [number, number])[][] = [];
+  for (let j = 0; j < kDown; j += 1)
+    for (let i = 0; i < kAround; i += 1) {
+      const [a, b, c, d] = [
+        [i, j] as const,
+        [i, j + 1] as const,
+        [i + 1, j + 1] as const,
+        [i + 1, j] as const,
+      ];
+      if (j < kDown - 1) out.push([a, b, c]);
+      if (j > 0) out.push([a, c, d]);
     }
-  return stlOf(out);
+  return out;
+}
+
+/** A ball as STL. */
+export const ball = (): Buffer =>
+  stlOf(
+    cornersOfBall().map((corners) => corners.map(([i, j]) => onBall(i, j)) as unknown as Triangle),
+  );
+
+/** All points of a ball, with those at the seam twice. */
+const pointsOfBall = (): (readonly [number, number])[] =>
+  Array.from({ length: (kAround + 1) * (kDown + 1) }, (_, k) => [
+    k % (kAround + 1),
+    Math.floor(k / (kAround + 1)),
+  ]);
+const indexOf = ([i, j]: readonly [number, number]): number => j * (kAround + 1) + i;
+
+/** A ball as OBJ, with texture coordinates. */
+export function ballWithUvs(): Buffer {
+  const points = pointsOfBall();
+  const corner = (at: readonly [number, number]) => `${indexOf(at) + 1}/${indexOf(at) + 1}`;
+  return Buffer.from(
+    [
+      ...points.map(([i, j]) => `v ${onBall(i, j).join(' ')}`),
+      ...points.map(([i, j]) => `vt ${(2 * i) / kAround} ${1 - j / kDown}`),
+      ...cornersOfBall().map((corners) => `f ${corners.map(corner).join(' ')}`),
+      '',
+    ].join('\n'),
+  );
+}
+
+/** A ball as PLY, with colours of its vertices. */
+export function ballWithColours(): Buffer {
+  const points = pointsOfBall();
+  const triangles = cornersOfBall();
+  const properties = [...'xyz'].map((name) => `property float ${name}`);
+  const colours = ['red', 'green', 'blue'].map((name) => `property uchar ${name}`);
+  const header = ['ply', 'format ascii 1.0', `element vertex ${points.length}`, ...properties];
+  const wave = (turns: number) => Math.round(128 + 120 * Math.sin(2 * Math.PI * turns));
+  return Buffer.from(
+    [
+      ...[...header, ...colours, `element face ${triangles.length}`],
+      ...['property list uchar int vertex_indices', 'end_header'],
+      ...points.map(([i, j]) =>
+        [...onBall(i, j), wave(i / kAround), wave(j / kDown), wave((2 * i) / kAround)].join(' '),
+      ),
+      ...triangles.map((corners) => `3 ${corners.map(indexOf).join(' ')}`),
+      '',
+    ].join('\n'),
+  );
 }
 
 /** A tube of radius 9 mm, bent by a third of a turn around a radius of 32 mm. */

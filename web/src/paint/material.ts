@@ -142,6 +142,12 @@ export class PaintLook {
     return this.looks.map((look) => this.materialOf(look, isLit));
   }
 
+  /** Draws the pictures' textures again at the next update(), which then needs new materials. */
+  forget(): void {
+    this.textures.dispose();
+    this.key = '';
+  }
+
   dispose(): void {
     this.textures.dispose();
   }

@@ -36,11 +36,12 @@ export class PaintedObject {
    * @param isLit     false for the exact colours
    */
   constructor(
-    renderer: WebGLRenderer,
+    private readonly renderer: WebGLRenderer,
     private readonly onChange: () => void,
     private readonly isLit = true,
   ) {
     this.look = new PaintLook(renderer);
+    renderer.domElement.addEventListener('webglcontextrestored', this.restore);
   }
 
   /** `scale`: length of a unit, mm. `lookOf` returns the own look of a material. */
@@ -90,9 +91,17 @@ export class PaintedObject {
   }
 
   dispose(): void {
+    this.renderer.domElement.removeEventListener('webglcontextrestored', this.restore);
     this.clear();
     this.look.dispose();
   }
+
+  // The browser may drop what is on the GPU, for example while the page is in the background.
+  private readonly restore = (): void => {
+    this.look.forget();
+    this.update();
+    this.onChange();
+  };
 
   private update(): void {
     if (!this.content) return;
