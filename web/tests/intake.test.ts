@@ -6,8 +6,12 @@ import {
   change,
   draft,
   jobOf,
+  kEmpty,
   lacksCoordinates,
+  renewed,
+  rescale,
   shape,
+  type Draft,
 } from '../src/screens/new_print/draft';
 import {
   arrangement,
@@ -110,19 +114,58 @@ test('starting over forgets all files', async () => {
   expect(arrangement.value.texture).toBeUndefined();
 });
 
-test('a job has the projection that was chosen, if it has a texture', async () => {
+const jobWith = (more: Partial<Parameters<typeof jobOf>[1]>) => {
+  const inputs = { mesh: { name: 'x', asset: 'assets/1' }, extraFiles: [], ...more };
+  return jobOf(draft.value, inputs, centre_mm.value).simulate;
+};
+
+test('a job has the layer that was chosen, if it has a texture', async () => {
+  const texture = { name: 'cat.png', asset: 'assets/2' };
   await take([stl(), picture('cat.png')]);
-  const job = (texture: boolean) => {
-    const input = { name: 'x', asset: 'assets/1' };
-    const inputs = { mesh: input, extraFiles: [], ...(texture ? { texture: input } : {}) };
-    return jobOf(draft.value, inputs, centre_mm.value).simulate;
-  };
-  expect(job(true).project).toBeUndefined();
-  change({ projection: { kind: 'box', size_mm: 60, turn_deg: 90 } });
-  const chosen = { project: 'box', projectSizeMm: 60, projectTurnDeg: 90 };
-  expect(job(true)).toMatchObject(chosen);
-  expect(job(false).project).toBeUndefined();
+  expect(jobWith({ texture })).toMatchObject({ texture });
+  expect(jobWith({ texture }).paint).toBeUndefined();
+  change({ layer: { projection: 'box', size_mm: 60, turn_deg: 90 } });
+  const chosen = { picture: texture, projection: 'box', sizeMm: 60, turnDeg: 90 };
+  expect(jobWith({ texture }).paint).toEqual({ layers: [chosen] });
+  expect(jobWith({ texture }).texture).toBeUndefined();
+  expect(jobWith({}).paint).toBeUndefined();
   // The coordinates of another model place the texture.
   await take([obj()]);
-  expect(job(true).project).toBeUndefined();
+  expect(jobWith({ texture })).toMatchObject({ texture });
+});
+
+test('the paint of a job stays as it is if this page cannot change it', () => {
+  const paint = { layers: [{ colour: '#ff0000' }, { colour: '#00ff00' }] };
+  expect(jobWith({ paint }).paint).toEqual(paint);
+});
+
+test('a picture lands with its layer, if it becomes the texture', async () => {
+  const layer = { projection: 'decal', size_mm: 3 } as const;
+  await take([stl()]);
+  await take([picture('cat.png')], layer);
+  expect(draft.value.layer).toEqual(layer);
+  await take([obj(), mtl()]);
+  expect(draft.value.layer).toEqual({});
+  // A material names this picture.
+  await take([picture('skin.png')], layer);
+  expect(draft.value.layer).toEqual({});
+});
+
+test('a change of the unit keeps the picture at its place on the object', () => {
+  change({
+    scale: 1,
+    layer: { projection: 'decal', position_mm: [1, 2, 3], size_mm: 4, turn_deg: 30 },
+  });
+  rescale(10);
+  expect(draft.value).toMatchObject({
+    scale: 10,
+    layer: { projection: 'decal', position_mm: [10, 20, 30], size_mm: 40, turn_deg: 30 },
+  });
+});
+
+test('a draft of an earlier version keeps its projection', () => {
+  const { layer: _, ...rest } = kEmpty;
+  const old = { ...rest, projection: { kind: 'box', size_mm: 60 } } as unknown as Draft;
+  expect(renewed(old).layer).toEqual({ projection: 'box', size_mm: 60 });
+  expect(renewed(kEmpty).layer).toEqual({});
 });

@@ -29,6 +29,8 @@ export interface Arrangement<F extends Named> {
   missing: MissingFile[];
   /** The appearance of each material, with its image if present. */
   materials: Materials<F>;
+  /** True if the model has colours without the texture, and all files for them are present. */
+  hasOwnColours: boolean;
 }
 
 interface Mtl<F> {
@@ -54,8 +56,15 @@ export function arrange<F extends Named>(
   const extra = [...mtl.map(({ file }) => file), ...images]
     .filter((file) => file !== texture && !free.includes(file))
     .map((file) => ({ name: nameFor(file, referencesOf(model, materials)), file }));
-  const missing = texture || !model ? [] : missingOf(model, mtl, sources, materials);
-  return { extra, unused: free.slice(1), missing, materials, ...(texture ? { texture } : {}) };
+  const lacking = model ? missingOf(model, mtl, sources, materials) : [];
+  return {
+    extra,
+    unused: free.slice(1),
+    missing: texture ? [] : lacking,
+    materials,
+    hasOwnColours: model !== undefined && lacking.length === 0 && isColoured(model, materials),
+    ...(texture ? { texture } : {}),
+  };
 }
 
 interface Source {
@@ -94,6 +103,14 @@ function pictureToProject<F extends Named>(
   if (!model || model.mesh.uvs) return undefined;
   const files = new Set([...usedBy(model)].flatMap((name) => materials.get(name)?.file ?? []));
   return files.size === 1 ? [...files][0] : undefined;
+}
+
+/** True if the model has colours of vertices, or materials whose images it can show. */
+function isColoured<F>(model: ModelFile, materials: Materials<F>): boolean {
+  const { mesh } = model;
+  const used = [...usedBy(model)].flatMap((name) => materials.get(name) ?? []);
+  const canShow = mesh.uvs !== undefined || used.every(({ map, picture }) => !map && !picture);
+  return mesh.colours !== undefined || (used.length > 0 && canShow);
 }
 
 function missingOf<F extends Named>(

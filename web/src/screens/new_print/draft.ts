@@ -6,10 +6,11 @@ import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '
 import { filmOf, type Film } from '../../model/film';
 import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
-import { projectionOf, projectionSpec, type Projection } from '../../model/projection';
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 import { numberOf } from '../../ui/job_text';
+import { enlarged, layerIn, type LayerChoices } from './picture/choices';
+import { layerOfOldDraft, pictureOf, pictureSpec } from './picture/spec';
 
 /** The user's choices, as plain values and files that IndexedDB can store. */
 export interface Draft {
@@ -20,8 +21,8 @@ export interface Draft {
   name: string;
   scale: number;
   pose: Pose;
-  /** How the texture comes to the surface, as far as it was chosen. */
-  projection: Projection;
+  /** How the picture comes to the surface, as far as it was chosen. */
+  layer: LayerChoices;
   /** The calibration ("calibrations/7") whose pose is used instead of `pose`; empty for none. */
   calibration: string;
   film: string;
@@ -41,7 +42,7 @@ export const kEmpty: Draft = {
   name: '',
   scale: rules.SimulateSpec.scale.usual,
   pose: kUpright,
-  projection: {},
+  layer: {},
   calibration: '',
   film: rules.SimulateSpec.film.usual,
   dpi: rules.SimulateSpec.dpi.usual,
@@ -64,6 +65,10 @@ export const shape = signal<Shape | undefined>(undefined);
 export const change = (part: Partial<Draft>): void => {
   draft.value = { ...draft.value, requestId: newRequestId(), ...part };
 };
+
+/** Changes the scale. The picture keeps its place on the object. */
+export const rescale = (scale: number): void =>
+  change({ scale, layer: enlarged(draft.value.layer, scale / draft.value.scale) });
 
 // Separate from the draft, so that other changes of the draft keep the film, and with it the view of the object.
 const filmName = computed(() => draft.value.film);
@@ -88,6 +93,10 @@ export const lacksCoordinates = computed(
   () => shape.value !== undefined && !shape.value.mesh.uvs && !draft.value.from,
 );
 
+/** The picture's layer. Changes of other parts of the draft keep it. */
+const choices = computed(() => draft.value.layer);
+export const layer = computed(() => layerIn(choices.value, lacksCoordinates.value));
+
 /** Longest side of the object's bounding box, mm. */
 export const longest_mm = computed(() =>
   shape.value ? longestOf(shape.value.box) * draft.value.scale : 0,
@@ -97,17 +106,27 @@ const kDraftKey = 'new-print';
 
 /** Restores the stored draft, then stores every change. Fields that were changed before it was read stay changed. */
 export async function restore(): Promise<void> {
-  const kept = await load<Draft>(kDraftKey);
+  const kept = await load<Draft & OldDraft>(kDraftKey);
   const changed = Object.entries(draft.value).filter(
     ([key, value]) => value !== kEmpty[key as keyof Draft],
   );
-  if (kept) draft.value = { ...kEmpty, ...kept, ...Object.fromEntries(changed) };
+  if (kept) draft.value = { ...kEmpty, ...renewed(kept), ...Object.fromEntries(changed) };
   let timer = 0;
   effect(() => {
     const value = draft.value;
     window.clearTimeout(timer);
     timer = window.setTimeout(() => void save(kDraftKey, value), 200);
   });
+}
+
+/** A draft of an earlier version of this page. */
+interface OldDraft {
+  projection?: Parameters<typeof layerOfOldDraft>[0];
+}
+
+/** Reads a stored draft, also one of an earlier version. */
+export function renewed({ projection, ...kept }: Draft & OldDraft): Draft {
+  return projection && !kept.layer ? { ...kept, layer: layerOfOldDraft(projection) } : kept;
 }
 
 /** Initial scale: the unit that the file format defines (glTF: metre), otherwise mm. */
@@ -137,7 +156,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
       from: { job: name, spec },
       name: answer.value.displayName,
       scale: spec.scale ?? 1,
-      projection: projectionOf(spec),
+      layer: pictureOf(spec)?.layer ?? {},
       film: spec.film ?? 'A4',
       dpi: spec.dpi ?? 300,
       paper: labels['paper'] ?? kEmpty.paper,
@@ -162,6 +181,8 @@ export function takePoseOfJob(): void {
 export interface Inputs {
   mesh: InputFile;
   texture?: InputFile;
+  /** True if the model has colours, which show around a decal. */
+  hasOwnColours?: boolean;
   /** The paint of job `from`, unless there is a texture. */
   paint?: SimulateSpecInput['paint'];
   extraFiles: InputFile[];
@@ -175,12 +196,13 @@ export function jobOf(
   box_mm: Vec3,
 ): JobInput & { simulate: SimulateSpecInput } {
   const measured = value.calibration !== '';
+  const { texture, hasOwnColours = false, ...files } = inputs;
   const simulate: SimulateSpecInput = {
-    ...inputs,
+    ...files,
     ...(measured
       ? { calibration: value.calibration }
       : { scale: value.scale, pose: toApi(value.pose, box_mm), film: value.film }),
-    ...(inputs.texture ? projectionSpec(value.projection) : {}),
+    ...(texture ? pictureSpec(texture, value.layer, hasOwnColours) : {}),
     dpi: value.dpi,
     model: value.model,
     dipSpeedMmPerS: value.speed_mm_per_s,

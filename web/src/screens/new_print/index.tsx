@@ -43,6 +43,9 @@ export function NewPrint() {
       <h1 class="hidden">New print</h1>
       <div class={`scene ${isOver ? 'over' : ''}`}>
         {hasObject ? <ObjectView /> : <Intake isBusy={!isReady || isReading.value} />}
+        {hasObject && isOver && (
+          <p class="landing">A picture lands where you drop it on the object.</p>
+        )}
       </div>
       <div class="panel">
         {!may('MAKER') && (

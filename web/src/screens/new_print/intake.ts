@@ -6,6 +6,7 @@ import { decodeText } from '../../model/mtl';
 import { refused, type Result } from '../../model/result';
 import { readMesh } from '../../worker/reader';
 import { change, clear, draft, firstScale, shape, type Shape } from './draft';
+import type { LayerChoices } from './picture/choices';
 
 interface Problem {
   name: string;
@@ -45,8 +46,11 @@ export function startOver(): void {
 export const remove = (file: File): Promise<void> =>
   readAll(without(draft.value.files, file), false, []);
 
-/** Adds files to the draft. A new model replaces the old one and all files that belong to it. */
-export async function take(dropped: readonly File[]): Promise<void> {
+/**
+ * Adds files to the draft. A new model replaces the old one and all files that belong to it.
+ * @param layer  of the picture among the files, if it becomes the texture
+ */
+export async function take(dropped: readonly File[], layer?: LayerChoices): Promise<void> {
   const good: File[] = [];
   const bad: Problem[] = [];
   for (const file of dropped) {
@@ -74,6 +78,8 @@ export async function take(dropped: readonly File[]): Promise<void> {
     ...kept.filter((file) => file !== stale && !usable.some((other) => other.name === file.name)),
   ];
   await readAll(merged, meshes.length > 0, bad);
+  const { texture } = arrangement.value;
+  if (layer && texture && usable.includes(texture)) change({ layer });
 }
 
 /** Reads the files of a restored draft again. */
@@ -129,7 +135,7 @@ function begin(mesh: File, read: Shape, files: File[]): void {
   change({
     name: mesh.name.replace(/\.\w+$/, ''),
     scale: firstScale(read),
-    ...(read.mesh.uvs ? { projection: {} } : {}),
+    layer: {},
   });
 }
 

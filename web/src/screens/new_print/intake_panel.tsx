@@ -6,10 +6,11 @@ import { Button, NumberField, Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
-import { change, draft, longest_mm, shape, sides_mm } from './draft';
+import { draft, longest_mm, rescale, shape, sides_mm } from './draft';
 import { FileList, Waiting } from './file_list';
 import { arrangement, isReading, problems, samples, take, takeSample, waiting } from './intake';
-import { ProjectionPanel } from './projection_panel';
+import { takeDropped } from './picture/dropped';
+import { PicturePanel } from './picture/picture_panel';
 
 const kEndings = '.obj,.mtl,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
 
@@ -52,7 +53,7 @@ export function useDrop(): boolean {
       event.preventDefault();
       setOver(false);
       const files = event.dataTransfer?.files;
-      if (files && files.length > 0) void take([...files]);
+      if (files && files.length > 0) void takeDropped([...files], event.clientX, event.clientY);
     };
     window.addEventListener('dragover', over);
     window.addEventListener('dragleave', leave);
@@ -106,7 +107,7 @@ export function Taken() {
       <Problems />
       {hasAny && <Browse label="Add or replace files" />}
       {shape.value && !calibrated.value && <Size />}
-      {shape.value && <ProjectionPanel />}
+      {shape.value && <PicturePanel />}
     </section>
   );
 }
@@ -146,9 +147,7 @@ function Size() {
           label="Unit of the model"
           value={unit?.name ?? ''}
           choices={kLengthUnits.map(({ name }) => ({ value: name, label: name }))}
-          onValue={(name) =>
-            change({ scale: kLengthUnits.find((one) => one.name === name)!.length_mm })
-          }
+          onValue={(name) => rescale(kLengthUnits.find((one) => one.name === name)!.length_mm)}
         />
       </div>
       <p>
@@ -162,14 +161,14 @@ function Size() {
           value={longest_mm.value}
           min={1}
           max={2000}
-          onValue={(value) => change({ scale: (scale * value) / longest_mm.value })}
+          onValue={(value) => rescale((scale * value) / longest_mm.value)}
         />
         <NumberField
           label="One unit is"
           {...limitsOf(rules.SimulateSpec.scale)}
           digits={6}
           value={scale}
-          onValue={(value) => change({ scale: value })}
+          onValue={rescale}
         />
       </div>
     </>
@@ -190,7 +189,7 @@ function SizeWarning() {
           : 'Check the unit of the model, or enter its longest side.'}
       </p>
       {unit && (
-        <button type="button" onClick={() => change({ scale: unit.length_mm })}>
+        <button type="button" onClick={() => rescale(unit.length_mm)}>
           Use {unit.name}
         </button>
       )}

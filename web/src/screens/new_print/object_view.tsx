@@ -1,57 +1,45 @@
 /** The object over the film in 3D. The code for 3D is loaded only when it is needed. */
 import { computed, effect, signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
+import type { PoseView, Look } from '../../view3d/pose_view';
 import type { Side } from '../../view3d/stage';
 import { colourOf, place, type Scale } from '../../model/colour_map';
-import { readPicture, type Paint } from '../../paint/paint';
+import type { Paint } from '../../paint/paint';
 import { Switch } from '../../ui/controls';
 import { Legend } from '../../ui/legend';
 import { calibrated } from './calibration';
-import { change, draft, film, lacksCoordinates, shape } from './draft';
+import { change, film, layer, shape } from './draft';
 import { arrangement } from './intake';
+import { mode, setMode, view, type Mode } from './mode';
+import { decoded, followPictures, texturePicture } from './picture/decoded';
+import { isMovable, pose, scale, surroundings } from './picture/placed';
+import { listen } from './picture/pointer_input';
+import { isAboveOwnColours } from './picture/spec';
 import { shown, type Shown } from './preview';
 
-const gizmo = signal<Gizmo>('rotate');
-const coat = signal<'picture' | 'stretch'>('picture');
+const chosenCoat = signal<'picture' | 'stretch'>('picture');
+/** The picture is shown while it is moved. */
+const coat = computed(() => (mode.value === 'picture' ? 'picture' : chosenCoat.value));
 const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
-// Separate from the draft, so that rotating the object does not rebuild its mesh.
-const scale = computed(() => draft.value.scale);
-const pose = computed(() => calibrated.value?.pose ?? draft.value.pose);
-const projection = computed(() => draft.value.projection);
 
-/** Decoded images by file. Formats that the browser cannot display (TIFF) are skipped. */
-async function pictures(): Promise<Map<File, ImageBitmap>> {
-  const { materials, texture } = arrangement.value;
-  const out = new Map<File, ImageBitmap>();
-  const files = [texture, ...[...materials.values()].map((material) => material.file)];
-  for (const file of files) {
-    if (!file || out.has(file)) continue;
-    const bitmap = await readPicture(file);
-    if (bitmap) out.set(file, bitmap);
-  }
-  return out;
-}
-
-function lookOf(material: string, ready: Map<File, ImageBitmap>): Look {
+function lookOf(material: string): Look {
   const known = arrangement.value.materials.get(material);
-  const picture = known?.file && shape.value?.mesh.uvs && ready.get(known.file);
+  const picture = known?.file && shape.value?.mesh.uvs && decoded.value.pictures.get(known.file);
   if (picture) return { colour: [1, 1, 1], picture };
   return { colour: known?.colour ?? [0.85, 0.85, 0.85] };
 }
 
 /** The object's texture as a layer. */
-function paintOf(ready: Map<File, ImageBitmap>): Paint | undefined {
-  const { texture } = arrangement.value;
-  const picture = texture && ready.get(texture);
+function paintOf(): Paint | undefined {
+  const picture = texturePicture.value;
   if (!picture) return undefined;
-  const { kind = lacksCoordinates.value ? 'dip' : 'uv', ...rest } = projection.value;
-  return { layers: [{ layer: { projection: kind, ...rest }, picture }] };
+  const top = { layer: layer.value, picture };
+  const hasBelow = isAboveOwnColours(layer.value, arrangement.value.hasOwnColours);
+  return { layers: [...(hasBelow ? [{ layer: { projection: 'uv' as const } }] : []), top] };
 }
 
 export function ObjectView() {
   const host = useRef<HTMLDivElement>(null);
-  const view = useRef<PoseView>();
   const [trouble, setTrouble] = useState('');
 
   useEffect(() => {
@@ -60,49 +48,51 @@ export function ObjectView() {
     void import('../../view3d/pose_view').then(({ PoseView: View }) => {
       if (isGone || !host.current) return;
       try {
-        view.current = new View(host.current, (turned) => change({ pose: turned }));
+        view.value = new View(host.current, (turned) => change({ pose: turned }));
       } catch {
         setTrouble(
           'This browser cannot show 3D because WebGL is off or missing. Enter the rotation as numbers; everything else works.',
         );
         return;
       }
-      end = follow(view.current);
+      end = follow(view.value, host.current);
     });
     return () => {
       isGone = true;
       end();
-      view.current?.dispose();
-      view.current = undefined;
+      view.value?.dispose();
+      view.value = undefined;
     };
   }, []);
+  useEffect(followPictures, []);
 
-  const look = (side: Side) => view.current?.look(side, film.value);
+  const look = (side: Side) => view.value?.look(side, film.value);
   return (
     <div class="view3d">
       <div
         class="stage"
         ref={host}
         role="img"
-        aria-label="3D view of the object above the film. The fields beside this view turn and move the object."
+        aria-label="3D view of the object above the film. The fields beside this view place the object and its picture."
       />
       {trouble && <p class="trouble">{trouble}</p>}
       <div class="tools">
-        <Switch<Gizmo>
+        <Switch<Mode>
           label="Effect of dragging"
-          value={gizmo.value}
-          onValue={(value) => (gizmo.value = value)}
+          value={mode.value}
+          onValue={setMode}
           choices={[
             { value: 'rotate', label: 'Turn' },
             { value: 'translate', label: 'Move' },
+            ...(isMovable.value ? [{ value: 'picture' as const, label: 'Picture' }] : []),
             { value: 'none', label: 'View' },
           ]}
         />
-        {shown.value && (
+        {shown.value && mode.value !== 'picture' && (
           <Switch<'picture' | 'stretch'>
             label="Texture"
             value={coat.value}
-            onValue={(value) => (coat.value = value)}
+            onValue={(value) => (chosenCoat.value = value)}
             choices={[
               { value: 'picture', label: 'Image' },
               { value: 'stretch', label: 'Stretch' },
@@ -117,6 +107,7 @@ export function ObjectView() {
           ))}
         </span>
       </div>
+      {mode.value === 'picture' && <Hint />}
       {shown.value && coat.value === 'stretch' && (
         <Legend
           title="Stretch of the film (estimate)"
@@ -130,6 +121,14 @@ export function ObjectView() {
   );
 }
 
+/** How the picture is moved. */
+const Hint = () => (
+  <p class="quiet hint">
+    Drag to move the picture. Scroll or pinch to change its size. Shift-drag or twist with two
+    fingers to turn it.
+  </p>
+);
+
 /** Builds the mesh for the preview's stretch colours. */
 function heatOf({ positions, corners, stretch }: Shown) {
   const colours = new Uint8Array(positions.length);
@@ -139,37 +138,41 @@ function heatOf({ positions, corners, stretch }: Shown) {
 }
 
 /** Keeps the view up to date with the draft and the preview. */
-function follow(view: PoseView): () => void {
-  let count = 0;
+function follow(view: PoseView, host: HTMLElement): () => void {
   const ends = [
     effect(() => {
       view.setFilm(film.value);
     }),
     effect(() => {
       const now = shape.value;
-      const factor = scale.value;
-      void arrangement.value;
-      void projection.value;
-      count += 1;
-      const turn = count;
       if (!now) return view.clear();
-      return void pictures().then((ready) => {
-        if (turn !== count) return;
-        view.setPaint(paintOf(ready));
-        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready));
-        view.setPose(pose.peek());
-        view.setHeat(shown.value && coat.peek() === 'stretch' ? heatOf(shown.value) : undefined);
-      });
+      // The pictures of a new object are decoded first, so that it is shown only once.
+      if (decoded.value.of !== arrangement.value) return;
+      view.setMesh(now.mesh, now.box, scale.value, lookOf);
+      view.setPose(pose.peek());
+      const seen = shown.peek();
+      view.setHeat(seen && coat.peek() === 'stretch' ? heatOf(seen) : undefined);
+    }),
+    effect(() => {
+      view.setPaint(paintOf());
     }),
     effect(() => {
       view.setPose(pose.value);
     }),
     effect(() => {
-      view.setGizmo(calibrated.value ? 'none' : gizmo.value);
+      view.setGizmo(calibrated.value || mode.value === 'picture' ? 'none' : mode.value);
     }),
     effect(() => {
       view.setHeat(shown.value && coat.value === 'stretch' ? heatOf(shown.value) : undefined);
     }),
+    effect(() =>
+      mode.value === 'picture'
+        ? listen(
+            host,
+            surroundings((x, y) => view.hit(x, y)),
+          )
+        : undefined,
+    ),
     // Resets the camera when the object, its scale or the film changes, but not while the object is rotated.
     effect(() => {
       void shape.value;

@@ -12,7 +12,7 @@ import type { Warning } from '../../model/report';
 import type { Result } from '../../model/result';
 import { may } from '../../state/session';
 import { calibrated } from './calibration';
-import { centre_mm, draft, jobOf, shape, type Inputs } from './draft';
+import { centre_mm, draft, jobOf, shape, type Draft, type Inputs } from './draft';
 import { inputsOf } from './intake';
 
 /** The displayed values of the last preview. */
@@ -35,6 +35,21 @@ export const isComputing = signal(false);
 
 const kPause_ms = 60;
 
+type Settings = Omit<Draft, 'layer' | 'requestId'>;
+
+const isSame = (a: Settings, b: Settings): boolean => {
+  const fields = new Set([...Object.keys(a), ...Object.keys(b)]) as Set<keyof Settings>;
+  return [...fields].every((field) => a[field] === b[field]);
+};
+
+let lastSettings: Settings | undefined;
+/** The draft without the picture's layer, which does not change a preview. */
+const settings = computed(() => {
+  const { layer: _, requestId: __, ...now } = draft.value;
+  if (!lastSettings || !isSame(lastSettings, now)) lastSettings = now;
+  return lastSettings;
+});
+
 /** Keeps the preview up to date until the returned function is called. */
 export function followPreview(): () => void {
   const requester = new PreviewRequester();
@@ -45,7 +60,7 @@ export function followPreview(): () => void {
       void requester.bring(inputs.value);
     }),
     effect(() => {
-      void draft.value;
+      void settings.value;
       void calibrated.value;
       requester.schedule();
     }),

@@ -12,6 +12,7 @@ import { remedyOf, useFormErrors } from '../../ui/field_errors';
 import { calibrated, staleness } from './calibration';
 import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
 import { arrangement, inputsOf } from './intake';
+import { pictureOf } from './picture/spec';
 
 interface Sending {
   name: string;
@@ -70,15 +71,17 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   const spec = brought.mesh ? undefined : from?.spec;
   const mesh = brought.mesh ?? (spec?.mesh as Inputs['mesh'] | undefined);
   if (!mesh) return refused('the model is missing', 'Drop a model, or choose a sample');
-  const texture = brought.texture ?? (spec?.texture as Inputs['texture']);
+  const known = spec && pictureOf(spec);
+  const texture = brought.texture ?? known?.texture;
   const paint = texture ? undefined : (spec?.paint as Inputs['paint']);
+  const hasOwnColours = known?.hasOwnColours ?? arrangement.value.hasOwnColours;
   const profile = brought.profile ?? (spec?.profile as Inputs['profile']);
   const kept = (spec?.extraFiles ?? []) as Inputs['extraFiles'];
   const names = new Set(extraFiles.map((file) => file.name));
   return done({
     mesh,
     extraFiles: [...extraFiles, ...kept.filter((file) => !names.has(file.name))],
-    ...(texture ? { texture } : {}),
+    ...(texture ? { texture, hasOwnColours } : {}),
     ...(paint ? { paint } : {}),
     ...(profile ? { profile } : {}),
   });
