@@ -13,6 +13,7 @@ import { PosePanel } from './pose_panel';
 import { FilmPanel, MorePanel } from './settings_panel';
 import { PreviewPanel } from './preview_panel';
 import { Submit } from './submit_panel';
+import { followSteps } from './undo';
 
 let isRestored = false;
 
@@ -35,6 +36,7 @@ export function NewPrint() {
     void refreshCalibrations();
   }, [from]);
 
+  useEffect(followSteps, []);
   const errors = useFieldErrors();
   const isOver = useDrop();
   const hasObject = shape.value !== undefined;

@@ -16,6 +16,7 @@ import { isMovable, pose, scale, surroundings } from './picture/placed';
 import { listen } from './picture/pointer_input';
 import { isAboveOwnColours } from './picture/spec';
 import { shown, type Shown } from './preview';
+import { UndoButtons } from './undo_buttons';
 
 const chosenCoat = signal<'picture' | 'stretch'>('picture');
 /** The picture is shown while it is moved. */
@@ -88,6 +89,7 @@ export function ObjectView() {
             { value: 'none', label: 'View' },
           ]}
         />
+        <UndoButtons />
         {shown.value && mode.value !== 'picture' && (
           <Switch<'picture' | 'stretch'>
             label="Texture"
