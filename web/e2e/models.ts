@@ -96,5 +96,5 @@ function glb(json: string, bytes: Buffer): Buffer {
 }
 
 /** A striped PNG of `size` by `size` pixels. */
-const stripes = (size: number): Buffer =>
+export const stripes = (size: number): Buffer =>
   pngOf(size, size, (x, y) => ((x >> 3) % 2 ? [200, 40 + 3 * y, 30] : [20, 60, 40 + 3 * y]));

@@ -2,14 +2,17 @@
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
+import type { Page } from 'playwright-core';
 import { expect, test } from 'vitest';
 import { addPeople, asAdmin, come, signIn } from './accounts';
 import { open, visit } from './browser';
 import { look } from './checks';
 import { bin, kLanHost } from './daemon';
-import { ballGlb, makeBall } from './models';
+import { ballGlb, makeBall, stripes } from './models';
+import { imageIn } from './pdf';
 import { rareTest, usePlace } from './place';
 import { startProxy } from './proxy';
+import { ball } from './solids';
 
 const there = usePlace(({ daemon }) => addPeople(daemon.address));
 
@@ -154,6 +157,116 @@ test('a maker prints over plain HTTP, behind a proxy that serves the page in a f
   expect(vera.page.url()).toBe(address);
   expect(vera.complaints).toEqual([]);
   proxy.stop();
+});
+
+/** Drops files on the page, at a place on the screen. */
+const drop = (page: Page, files: { name: string; bytes: Buffer }[], x = 0, y = 0) =>
+  page.evaluate(
+    ({ dropped, x, y }) => {
+      const dataTransfer = new DataTransfer();
+      for (const { name, base64 } of dropped) {
+        const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+        dataTransfer.items.add(new File([bytes], name));
+      }
+      const place = { clientX: x, clientY: y };
+      window.dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true, ...place }));
+    },
+    { dropped: files.map(({ name, bytes }) => ({ name, base64: bytes.toString('base64') })), x, y },
+  );
+
+const ballAndCat = () => [
+  { name: 'ball.stl', bytes: ball(8) },
+  { name: 'cat.png', bytes: stripes(64) },
+];
+
+/** Counts the presses of the user from now on. */
+const countClicks = (page: Page) =>
+  page.evaluate(() => {
+    const counter = window as unknown as { clicks: number };
+    counter.clicks = 0;
+    window.addEventListener(
+      'click',
+      ({ isTrusted }) => (counter.clicks += Number(isTrusted)),
+      true,
+    );
+  });
+const clicksOn = (page: Page): Promise<number> =>
+  page.evaluate(() => (window as unknown as { clicks: number }).clicks);
+
+test.each([1280, 390])(
+  'from the drop of an STL and a picture to the pages in four clicks (%i px)',
+  async (width) => {
+    const person = await come(there, 'mia', '', width);
+    const { page } = person;
+    await page.getByText('Drop a model here').waitFor();
+    await countClicks(page);
+    await drop(page, ballAndCat());
+    await page.getByRole('button', { name: 'Simulate' }).click();
+    await page.getByRole('button', { name: 'Create PDF' }).click({ timeout: 240_000 });
+    const link = page.getByRole('link', { name: 'print.pdf' });
+    await link.waitFor({ timeout: 120_000 });
+    const download = page.waitForEvent('download');
+    await link.click();
+    const { samples, channels } = imageIn(readFileSync(await (await download).path()));
+    expect(await clicksOn(page)).toBeLessThanOrEqual(4);
+    // The stripes are red and blue: one of these channels is dark in them.
+    let dark = 0;
+    for (let i = 0; i < samples.length; i += channels)
+      if (Math.min(samples[i]!, samples[i + 2]!) < 100) dark += 1;
+    // The ball's shadow covers about 200 mm^2 at 300 dpi.
+    expect(dark).toBeGreaterThan(5000);
+    expect(person.complaints).toEqual([]);
+  },
+);
+
+rareTest('a picture that is dropped on the object lands there, and can be dragged', async () => {
+  const person = await come(there, 'mia');
+  const { page } = person;
+  const [model, cat] = ballAndCat();
+  await drop(page, [model!]);
+  await page.locator('.stage canvas').waitFor();
+  const simulate = page.getByRole('button', { name: 'Simulate' });
+  await simulate.waitFor();
+  const { x, y, width, height } = (await page.locator('.stage').boundingBox())!;
+  const middle = [x + width / 2, y + height / 2] as const;
+  // The view is loaded after the object. Before that, the picture becomes a texture.
+  await expect
+    .poll(
+      async () => {
+        await drop(page, [cat!], ...middle);
+        return page.getByRole('radio', { name: 'Sticker' }).isChecked();
+      },
+      { timeout: 20_000 },
+    )
+    .toBe(true);
+  expect(await page.getByRole('radio', { name: 'Picture' }).isChecked()).toBe(true);
+  await look(person, 'new-print-sticker');
+  await page.getByText('More', { exact: true }).click();
+  const position = () => page.getByLabel('Position x').inputValue();
+  const before = await position();
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 8, middle[1], { steps: 4 });
+  await page.mouse.up();
+  const after = await position();
+  expect(after).not.toBe(before);
+  await page.keyboard.press('Control+z');
+  await expect.poll(position).toBe(before);
+  await page.keyboard.press('Control+Shift+z');
+  await expect.poll(position).toBe(after);
+
+  const sent = page.waitForRequest(
+    (request) => /\/v1\/jobs\b/.test(request.url()) && request.method() === 'POST',
+  );
+  await simulate.click();
+  const { simulate: spec } = (await sent).postDataJSON() as { simulate: { paint: object } };
+  expect(spec.paint).toMatchObject({ layers: [{ projection: 'decal' }] });
+  await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
+  await page.getByRole('link', { name: 'Run again with changes' }).click();
+  await page.locator('.stage canvas').waitFor();
+  expect(await page.getByRole('radio', { name: 'Sticker' }).isChecked()).toBe(true);
+  expect(await position()).toBe(after);
+  expect(person.complaints).toEqual([]);
 });
 
 rareTest('while the object is turned, a preview shows coverage, stretch and warnings', async () => {
@@ -323,8 +436,8 @@ rareTest('a picture waits for its model; a missing texture blocks the simulation
   await page
     .locator('input[type=file]')
     .setInputFiles([{ name: 'leaf.stl', mimeType: 'model/stl', buffer: Buffer.from(stl) }]);
-  await page.getByText('the picture is projected from below, as the film sees it').waitFor();
-  await page.getByLabel('Projection of the picture').selectOption('box');
+  await page.getByText('The picture is projected from below, as the film sees').waitFor();
+  await page.getByRole('radio', { name: 'Three sides' }).check();
   await page.getByLabel('Turn of the picture').fill('90');
   expect(await simulate.isEnabled()).toBe(true);
   await look(person, 'new-print-projected');

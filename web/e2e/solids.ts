@@ -52,11 +52,12 @@ export function bracket(): Buffer {
 const kAround = 64;
 const kDown = 32;
 
-/** A point of a ball of radius 25 mm around (5, -4, 30). */
-function onBall(i: number, j: number): Point {
+/** A point of a ball around (5, -4, 30). */
+function onBall(i: number, j: number, radius_mm = 25): Point {
   const [a, b] = [(2 * Math.PI * (i % kAround)) / kAround, (Math.PI * j) / kDown];
   const r = j === 0 || j === kDown ? 0 : Math.sin(b);
-  return [5 + 25 * r * Math.cos(a), -4 + 25 * r * Math.sin(a), 30 + 25 * Math.cos(b)];
+  const r_mm = r * radius_mm;
+  return [5 + r_mm * Math.cos(a), -4 + r_mm * Math.sin(a), 30 + radius_mm * Math.cos(b)];
 }
 
 /** The corners of the triangles of a ball: the arguments of onBall(). */
@@ -77,10 +78,11 @@ function cornersOfBall(): (readonly [number, number])[][] {
 }
 
 /** A ball as STL. */
-export const ball = (): Buffer =>
-  stlOf(
-    cornersOfBall().map((corners) => corners.map(([i, j]) => onBall(i, j)) as unknown as Triangle),
-  );
+export function ball(radius_mm = 25): Buffer {
+  const triangleOf = (corners: (readonly [number, number])[]) =>
+    corners.map(([i, j]) => onBall(i, j, radius_mm)) as unknown as Triangle;
+  return stlOf(cornersOfBall().map(triangleOf));
+}
 
 /** All points of a ball, with those at the seam twice. */
 const pointsOfBall = (): (readonly [number, number])[] =>
