@@ -240,6 +240,7 @@ rareTest('a picture that is dropped on the object lands there, and can be dragge
     )
     .toBe(true);
   expect(await page.getByRole('radio', { name: 'Picture' }).isChecked()).toBe(true);
+  await page.getByRole('button', { name: 'Close-up' }).click();
   await look(person, 'new-print-sticker');
   await page.getByText('More', { exact: true }).click();
   const position = () => page.getByLabel('Position x').inputValue();

@@ -159,19 +159,28 @@ export class PoseView {
 
   /** Shows the whole object and film from that side. */
   look(side: Side, film: Film): void {
-    const size = new Vector3(
-      this.box.max[0] - this.box.min[0],
-      this.box.max[1] - this.box.min[1],
-      this.box.max[2] - this.box.min[2],
-    ).multiplyScalar(this.scale);
+    const size = this.size_mm();
     const reach = Math.max(0.55 * Math.hypot(film.width_mm, film.height_mm), 0.7 * size.length());
     this.stage.look(side, reach, new Vector3(0, 0, Math.min(size.length() / 3, reach / 2)));
+  }
+
+  /** Shows the object alone, from the same side. */
+  closeUp(): void {
+    this.stage.approach(0.6 * this.size_mm().length(), this.holder.position);
   }
 
   dispose(): void {
     this.gizmo.dispose();
     this.painted.dispose();
     this.stage.dispose();
+  }
+
+  private size_mm(): Vector3 {
+    return new Vector3(
+      this.box.max[0] - this.box.min[0],
+      this.box.max[1] - this.box.min[1],
+      this.box.max[2] - this.box.min[2],
+    ).multiplyScalar(this.scale);
   }
 
   /** The origin of frame O, relative to the centre of the bounding box. */

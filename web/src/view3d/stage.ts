@@ -77,10 +77,18 @@ export class Stage {
   /** Looks from that side so that everything within `reach_mm` of `centre` is visible. */
   look(side: Side, reach_mm = this.reach_mm, centre = new Vector3()): void {
     this.reach_mm = reach_mm;
-    const [x, y, z] = kFrom[side];
+    this.lookFrom(new Vector3(...kFrom[side]), reach_mm, centre);
+  }
+
+  /** Comes so near, without turning, that everything within `reach_mm` of `centre` is just visible. */
+  approach(reach_mm: number, centre: Vector3): void {
+    this.lookFrom(this.camera.position.clone().sub(this.controls.target), reach_mm, centre);
+  }
+
+  private lookFrom(direction: Vector3, reach_mm: number, centre: Vector3): void {
     const wide = Math.min(1, this.camera.aspect);
     const distance = reach_mm / Math.sin((this.camera.fov * Math.PI) / 360) / wide;
-    this.camera.position.copy(centre).addScaledVector(new Vector3(x, y, z).normalize(), distance);
+    this.camera.position.copy(centre).addScaledVector(direction.normalize(), distance);
     this.controls.target.copy(centre);
     this.controls.update();
     this.draw();

@@ -107,6 +107,9 @@ export function ObjectView() {
               {side[0]!.toUpperCase() + side.slice(1)}
             </button>
           ))}
+          <button type="button" class="plain" onClick={() => view.value?.closeUp()}>
+            Close-up
+          </button>
         </span>
       </div>
       {mode.value === 'picture' && <Hint />}
