@@ -52,7 +52,7 @@ export function lookFrom(side: Side, rotation_FO: Quaternion): Sight {
   return sight(direction, uprightFor(direction, rotation_FO));
 }
 
-/** The side from which the picture is projected; undefined if it is none of the six. */
+/** The side from which the picture is projected; undefined if it is another one. */
 export function sideOf(direction: Vec3 | undefined, rotation_FO: Quaternion): Side | undefined {
   const seen = rotate(rotation_FO, direction ?? kZ);
   return kSides.find((side) => isParallel(seen, kDirections_F[side]));
@@ -76,7 +76,7 @@ export function around(axis: Axis, rotation_FO: Quaternion): { direction?: Vec3;
   return { direction, up };
 }
 
-/** The axis around which the picture goes; undefined if it is none of the three. */
+/** The axis around which the picture goes; undefined if it is another one. */
 export function axisOf(
   { direction = kY, up }: { direction?: Vec3; up?: Vec3 },
   rotation_FO: Quaternion,
