@@ -10,6 +10,7 @@
 #include "sim/base/number_text.h"
 #include "sim/mesh/coincident.h"
 #include "sim/mesh/edges.h"
+#include "sim/mesh/inner.h"
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
 #include "sim/mesh/subdivide.h"
@@ -201,6 +202,9 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   surface.source_barycentric = std::move(work.source_barycentric);
   surface.weld = std::move(work.weld);
   warn_about_size(model, surface);
+  if (orientation.shells > 1) {
+    HP_ASSIGN_OR_RETURN(surface.inner, inner_corners(surface, context));
+  }
   context.progress("surface", 1);
   return surface;
 }

@@ -2,11 +2,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "sim/mesh/model.h"
 
 namespace hydroprint::mesh {
+
+/// A set of the corners of a triangle: bit k for corner k.
+using CornerSet = std::uint8_t;
 
 /// The model's surface prepared for simulation. Edges longer than `max_edge_mm` are subdivided and
 /// coincident vertices are welded. Normals are continuous on smooth parts and jump at sharp edges.
@@ -22,6 +26,13 @@ struct Surface {
   /// For each triangle and corner, the outward unit normal: weighted by angle over the faces around
   /// the corner that are connected to it without a crease (dihedral angle below 30 degrees).
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
+  /// For each triangle, the corners that lie inside another part, where no film arrives; empty:
+  /// none do.
+  std::vector<CornerSet> inner;
+  /// Returns whether a corner of a triangle lies inside another part.
+  [[nodiscard]] bool is_inner(std::size_t triangle, int corner) const {
+    return !inner.empty() && (inner[triangle] >> corner & 1) != 0;
+  }
   bool closed = false;   ///< every welded edge has exactly two triangles, consistently oriented
   bool is_flat = false;  ///< a sheet without thickness, which encloses nothing
   Warnings warnings;     ///< assumptions: open, non-manifold, inside out, several shells

@@ -147,8 +147,10 @@ void measure_part(const mesh::Surface& surface, const waterline::Body& body,
     const Face face = face_of(body, t);
     const bool clamped = face.theta_rad > waterline::kThetaLimit_rad;
     const double third_mm2 = face.area_mm2 / 3;
-    shares.total += face.area_mm2;
-    for (const int v : surface.triangles[t]) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = surface.triangles[t][k];
+      if (surface.is_inner(t, k)) continue;
+      shares.total += third_mm2;
       if (counted[v] == 0) continue;
       if (clamped) shares.clamped += third_mm2;
       if (clamped) is_measured[v] = 0;

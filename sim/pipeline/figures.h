@@ -8,12 +8,12 @@
 
 namespace hydroprint::pipeline {
 
-/// Computes the figures of a dip for the report.
+/// Computes the figures of a dip for the report. Shares are of the outer surface (Surface::inner).
 [[nodiscard]] DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                                     const film::Profile& profile);
 
 /// Sets the shares of the surface and the stretch in `figures` for a part of the surface. The
-/// shares remain relative to the whole surface.
+/// shares remain relative to the whole outer surface.
 /// @param counted  for each point: 1 if it belongs to the part
 void measure_part(const mesh::Surface& surface, const waterline::Body& body,
                   const flow::SurfaceMap& map, const film::Profile& profile,

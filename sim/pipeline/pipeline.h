@@ -69,7 +69,7 @@ struct DipFigures {
   std::vector<InkPass> ink_passes;
   int film_vertices_max = 0;  ///< number of vertices of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;       ///< fraction of the object's surface that the film reaches
+  double coverage = 0;       ///< fraction of the object's outer surface that the film reaches
   double clamped_share = 0;  ///< fraction of the surface where theta exceeds 170 degrees
   /// Fraction of the surface where the film is compressed below wrinkle_stretch.
   double wrinkled_share = 0;

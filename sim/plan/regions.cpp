@@ -71,7 +71,16 @@ void measure_seam(const mesh::Surface& surface, const Facets& facets, const Bord
     add_edge_seam(surface, facets, borders, border, regions);
 }
 
-void measure_sizes(const Facets& facets, const std::vector<int>& piece_of, Regions& regions) {
+/// Returns the share of a triangle that does not lie inside another part of the model.
+double outer_share(const mesh::Surface& surface, int triangle) {
+  int outer = 0;
+  for (int k = 0; k < 3; ++k)
+    outer += surface.is_inner(static_cast<std::size_t>(triangle), k) ? 0 : 1;
+  return outer / 3.0;
+}
+
+void measure_sizes(const mesh::Surface& surface, const Facets& facets,
+                   const std::vector<int>& piece_of, Regions& regions) {
   double unreached_mm2 = 0;
   double total_mm2 = 0;
   int pieces = 0;
@@ -80,11 +89,13 @@ void measure_sizes(const Facets& facets, const std::vector<int>& piece_of, Regio
     const double area_mm2 = regions.fragments.share(f) * facets.area_mm2(fragment.triangle);
     const bool is_new_piece = piece_of[f] == pieces;
     if (is_new_piece) ++pieces;
-    total_mm2 += area_mm2;
     if (fragment.dip == 0) {
-      unreached_mm2 += area_mm2;
+      const double outer_mm2 = area_mm2 * outer_share(surface, fragment.triangle);
+      unreached_mm2 += outer_mm2;
+      total_mm2 += outer_mm2;
       continue;
     }
+    total_mm2 += area_mm2;
     RegionSize& size = regions.sizes[static_cast<std::size_t>(fragment.dip - 1)];
     size.area_mm2 += area_mm2;
     size.pieces += is_new_piece ? 1 : 0;
@@ -110,7 +121,7 @@ Result<Regions> make_regions(const mesh::Surface& surface, const Stretch& stretc
       join_small_pieces(facets, borders, options.min_piece_mm2, regions.fragments);
   HP_RETURN_IF_ERROR(check_cancelled(context));
   measure_seam(surface, facets, borders, regions);
-  measure_sizes(facets, piece_of, regions);
+  measure_sizes(surface, facets, piece_of, regions);
   return regions;
 }
 

@@ -35,7 +35,7 @@ struct Regions {
   std::vector<SeamSegment> seam;  ///< between regions of different dips
   double seam_mm = 0;             ///< total length of the seam
   std::vector<RegionSize> sizes;  ///< per dip; index k - 1 for dip k
-  double unreached_share = 0;     ///< share of the surface's area that no dip reaches, in [0, 1]
+  double unreached_share = 0;     ///< share of the outer surface that no dip reaches, in [0, 1]
 };
 
 /// Assigns each point of the surface to the dip with the least stretch among those that reach it.

@@ -295,6 +295,35 @@ TEST(MakeSurface, PartsThatTouchAreUnitedWithoutTheWallBetweenThem) {
   EXPECT_NEAR(area(four.points, four.triangles), 2 * 400 + 4 * 200, 1e-6);
 }
 
+/// Returns the area of the triangles that do not lie inside another part.
+double outer_area(const Surface& s) {
+  double sum = 0;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (!s.is_inner(t, k)) sum += area(s.points, {s.triangles[t]}) / 3;
+  return sum;
+}
+
+TEST(MakeSurface, FacesInsideAnotherPartAreInner) {
+  // Two balls whose centres are a radius apart: of each, the cap beyond the middle plane is
+  // outside.
+  Model left = sample::icosphere(20, 4), right = left;
+  for (auto& p : right.vertices) p.x() += 20;
+  const Surface both = made(join(left, right), 1);
+  const double pi = 3.14159265358979;
+  EXPECT_NEAR(outer_area(both), 2 * (2 * pi * 20 * 30), 0.01 * 2 * 2 * pi * 20 * 30);
+  // A ball within a box: all of it is inner. A cavity: its wall is not.
+  const Model block = box({-30, -30, -30}, {30, 30, 30});
+  EXPECT_NEAR(outer_area(made(join(block, left), 5)), 6 * 3600, 1e-6);
+  const Surface hollow = made(join(block, turned(left)), 5);
+  EXPECT_TRUE(hollow.inner.empty());
+  EXPECT_TRUE(made(left).inner.empty());
+  // An open part hides nothing.
+  Model open = block;
+  open.triangles.resize(10);
+  EXPECT_TRUE(made(join(open, left), 5).inner.empty());
+}
+
 TEST(MakeSurface, ADoubleSidedSheetStaysOneSheetWithoutThickness) {
   Model plate;
   plate.path = "plate";

@@ -1,0 +1,133 @@
+#include "sim/mesh/inner.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+
+#include "sim/mesh/edges.h"
+#include "sim/mesh/groups.h"
+#include "sim/mesh/weld.h"
+
+namespace hydroprint::mesh {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+/// Distance of the rays' origin from the triangle, relative to the model's diagonal.
+constexpr double kJustOutside = 1e-5;
+/// The place of a corner's ray: so far from the triangle's middle towards the corner.
+constexpr double kTowardsCorner = 0.8;
+constexpr std::size_t kTrianglesAtOnce = 512;
+/// Directions of the rays. A ray that meets an edge may count it wrongly, so two of three decide.
+const std::array<Eigen::Vector3d, 3> kDirections = {Eigen::Vector3d(0.3141, 0.2718, 0.9097),
+                                                    Eigen::Vector3d(-0.8023, 0.1732, 0.5713),
+                                                    Eigen::Vector3d(0.2237, -0.9311, -0.2877)};
+
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::size_t t) {
+  const Eigen::Vector3i& v = surface.triangles[t];
+  return {surface.points[static_cast<std::size_t>(v[0])],
+          surface.points[static_cast<std::size_t>(v[1])],
+          surface.points[static_cast<std::size_t>(v[2])]};
+}
+
+Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) {
+  return (c[1] - c[0]).cross(c[2] - c[0]);
+}
+
+/// Returns the triangles of closed shells: those that share no edge with an open one.
+std::vector<std::size_t> closed_triangles(const Surface& surface) {
+  const Edges edges(surface.triangles, surface.weld);
+  Groups shells(surface.triangles.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (const int side : edges.sides(e))
+      shells.join(static_cast<std::size_t>(edges.sides(e)[0] / 3),
+                  static_cast<std::size_t>(side / 3));
+  }
+  std::vector<char> is_open(surface.triangles.size(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.sides(e).size() % 2 != 0)
+      is_open[shells.find(static_cast<std::size_t>(edges.sides(e)[0] / 3))] = 1;
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    if (is_open[shells.find(t)] == 0) out.push_back(t);
+  return out;
+}
+
+/// Closed shells, and how often they wind around a point.
+class Windings {
+ public:
+  explicit Windings(const Surface& surface) {
+    for (const std::size_t t : closed_triangles(surface)) {
+      const auto c = corners_of(surface, t);
+      normals_.push_back(normal_of(c));
+      triangles_.emplace_back(to_cgal(c[0]), to_cgal(c[1]), to_cgal(c[2]));
+    }
+    tree_.insert(triangles_.cbegin(), triangles_.cend());
+    tree_.build();
+  }
+
+  [[nodiscard]] bool is_inside(const Eigen::Vector3d& p) const {
+    const bool first = winding(p, kDirections[0]) > 0, second = winding(p, kDirections[1]) > 0;
+    return first == second ? first : winding(p, kDirections[2]) > 0;
+  }
+
+ private:
+  [[nodiscard]] int winding(const Eigen::Vector3d& p, const Eigen::Vector3d& direction) const {
+    const Kernel::Ray_3 ray(to_cgal(p),
+                            Kernel::Vector_3(direction.x(), direction.y(), direction.z()));
+    std::vector<Triangles::const_iterator> hits;
+    tree_.all_intersected_primitives(ray, std::back_inserter(hits));
+    int sum = 0;
+    for (const auto& hit : hits) {
+      const auto i = static_cast<std::size_t>(std::distance(triangles_.cbegin(), hit));
+      sum += normals_[i].dot(direction) > 0 ? 1 : -1;
+    }
+    return sum;
+  }
+
+  Triangles triangles_;
+  std::vector<Eigen::Vector3d> normals_;
+  Tree tree_;
+};
+
+}  // namespace
+
+Result<std::vector<CornerSet>> inner_corners(const Surface& surface, const Context& context) {
+  const Windings windings(surface);
+  const double outside_mm = kJustOutside * diagonal(surface.points);
+  std::vector<CornerSet> out(surface.triangles.size(), 0);
+  const auto corners_inside = [&](std::size_t t) {
+    const auto c = corners_of(surface, t);
+    const Eigen::Vector3d middle = (c[0] + c[1] + c[2]) / 3;
+    const Eigen::Vector3d shift = outside_mm * normal_of(c).normalized();
+    unsigned set = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = kTowardsCorner * c[k] + (1 - kTowardsCorner) * middle + shift;
+      if (windings.is_inside(p)) set |= 1U << k;
+    }
+    return static_cast<CornerSet>(set);
+  };
+  const std::size_t chunks = (out.size() + kTrianglesAtOnce - 1) / kTrianglesAtOnce;
+  HP_RETURN_IF_ERROR(parallel_for(context, {}, chunks, [&](std::size_t chunk) {
+    const std::size_t end = std::min(out.size(), (chunk + 1) * kTrianglesAtOnce);
+    for (std::size_t t = chunk * kTrianglesAtOnce; t < end; ++t) out[t] = corners_inside(t);
+    return Status{};
+  }));
+  if (std::ranges::all_of(out, [](CornerSet set) { return set == 0; })) out.clear();
+  return out;
+}
+
+}  // namespace hydroprint::mesh
