@@ -239,7 +239,7 @@ TEST(Dip, ReturnsPointsOfThePrintedFilmWhenItSwells) {
   });
 }
 
-TEST(Dip, AcceptsOpenSheetsAndBrokenBodies) {
+TEST(Dip, AcceptsBrokenBodiesAndRefusesSheetsWithoutThickness) {
   mesh::Model broken = sample::icosphere(12, 3);
   broken.triangles.resize(broken.triangles.size() * 4 / 5);
   EXPECT_GT(dipped(broken, options_for("60x60")).figures.coverage, 0.3);
@@ -247,7 +247,11 @@ TEST(Dip, AcceptsOpenSheetsAndBrokenBodies) {
   sheet.path = "sheet";
   sheet.vertices = {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
-  EXPECT_GE(dipped(sheet, options_for("60x60")).figures.coverage, 0);
+  const auto refused = dip(sheet, options_for("60x60"), {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
+  EXPECT_NE(refused.error().message.find("sheet: "), std::string::npos);
+  EXPECT_NE(refused.error().message.find("thickness"), std::string::npos);
 }
 
 TEST(Dip, AcceptsPartsThatTouchUpToRounding) {
