@@ -26,7 +26,7 @@ import ply
 import png
 
 DPI = 150
-CAT = pathlib.Path("/work/shared/models/cat/cat-low-resolution.obj")
+CAT = pathlib.Path(__file__).resolve().parents[4] / "shared/models/cat/cat-low-resolution.obj"
 
 
 class WorkerFailed(Exception):
