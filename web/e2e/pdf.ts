@@ -8,7 +8,7 @@ export interface Samples {
   samples: Uint8Array;
 }
 
-/** Returns the first image. Throws if there is none. */
+/** Returns the first image. Throws if the PDF has no image. */
 export function imageIn(pdf: Buffer): Samples {
   const text = pdf.toString('latin1');
   const mark = text.indexOf('/Subtype /Image');

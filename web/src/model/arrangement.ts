@@ -38,7 +38,7 @@ interface Mtl<F> {
   text: string;
 }
 
-/** `model` is undefined if there is no model yet, or if it comes from a job. */
+/** `model` is undefined before a model is added, and if the model comes from a job. */
 export function arrange<F extends Named>(
   model: ModelFile | undefined,
   mtl: readonly Mtl<F>[],
@@ -125,9 +125,10 @@ function missingOf<F extends Named>(
     out.set(baseOf(path).toLowerCase(), { name: baseOf(path), by });
   const lacksMaterials = !model.mesh.colours && [...used].some((name) => !materials.has(name));
   // A line may name one file or several.
-  for (const library of lacksMaterials ? model.mesh.libraries : [])
-    if (![library, ...library.split(/\s+/)].some((name) => has(mtl, name)))
-      add(library, model.name);
+  for (const line of lacksMaterials ? model.mesh.libraries : []) {
+    const names = [line, ...line.split(/\s+/)];
+    if (!names.some((name) => has(mtl, name))) add(line, model.name);
+  }
   for (const { name, material, by } of sources)
     if (material.map && used.has(name) && !materials.get(name)?.file) add(material.map, by);
   return [...out.values()];

@@ -60,7 +60,7 @@ function withoutOptions(text: string): string {
   return rest;
 }
 
-/** Removes the option at the front; undefined if there is none. */
+/** Removes the option at the front. Returns undefined if the line starts with something else. */
 function withoutOption(text: string): string | undefined {
   const option = kOptions[/^-\S+/.exec(text)?.[0].toLowerCase() ?? ''];
   if (!option) return undefined;

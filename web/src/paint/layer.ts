@@ -44,7 +44,7 @@ function set<T extends object>(fields: T): { [K in keyof T]?: Exclude<T[K], unde
   return Object.fromEntries(some) as { [K in keyof T]?: Exclude<T[K], undefined> };
 }
 
-/** The fields of a layer in a spec, without its name and picture. Only what is set is sent. */
+/** The fields of a layer in a spec, without its name and picture. Values that are not set are left out. */
 export const layerSpec = (layer: PaintLayer): LayerSpec =>
   set({
     projection: layer.projection,

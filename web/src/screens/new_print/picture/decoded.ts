@@ -38,7 +38,7 @@ export const followPictures = (): (() => void) =>
     });
   });
 
-/** The texture's picture; undefined if there is none, or if it is not decoded. */
+/** The texture's picture; undefined without a texture, and until it is decoded. */
 export const texturePicture = computed(() => {
   const { of, pictures } = decoded.value;
   const { texture } = arrangement.value;

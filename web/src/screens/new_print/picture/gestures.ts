@@ -16,7 +16,7 @@ export interface PlacedLayer {
 export interface Surroundings {
   /** The point of the object at a place on the screen. */
   hit(x: number, y: number): SurfacePoint | undefined;
-  /** The layer as it is now; undefined if there is none that can be moved. */
+  /** The layer as it is now; undefined if no picture can be moved. */
   current(): PlacedLayer | undefined;
   change(part: LayerChoices): void;
 }
