@@ -38,6 +38,24 @@ async function type(page: Page, label: string, text: string): Promise<void> {
   await field.blur();
 }
 
+/** Holds the focused button down until the axis is past a position. */
+async function jogPast(page: Page, mm: number): Promise<void> {
+  await page.keyboard.down('Space');
+  let last = NaN;
+  const position = async () => {
+    const now = await position_mm(page);
+    // On a busy machine the rig may end the jog, because the page asks for its continuation too late.
+    if (now === last) {
+      await page.keyboard.up('Space');
+      await page.keyboard.down('Space');
+    }
+    last = now;
+    return now;
+  };
+  await expect.poll(position, { timeout: 30_000, interval: 500 }).toBeGreaterThan(mm);
+  await page.keyboard.up('Space');
+}
+
 test('the rig is taken, armed, homed, moved and jogged, and stopped from another screen', async () => {
   const operator = await come(there, 'otto', 'rig');
   const { page } = operator;
@@ -113,15 +131,7 @@ test('a number out of range stays as typed, and nothing moves', async () => {
   await type(page, 'Move to', '300');
   const down = page.getByRole('button', { name: 'Down' });
   await down.focus();
-  // On a busy machine the rig may end the jog, because the page asks for its continuation too late. Then the key is
-  // pressed again.
-  const pressed = async () => {
-    await page.keyboard.down('Space');
-    await page.waitForTimeout(1000);
-    await page.keyboard.up('Space');
-    return position_mm(page);
-  };
-  await expect.poll(pressed, { timeout: 20_000 }).toBeGreaterThan(rest + 1);
+  await jogPast(page, rest + 1);
   await becomesReady(page);
   await error.waitFor();
   expect(await target.inputValue()).toBe('300');
@@ -237,9 +247,7 @@ test('a dip is guided step by step with one large button', async () => {
   const down = page.getByRole('button', { name: 'Down' });
   await page.getByRole('radio', { name: '10 mm/s' }).check();
   await down.focus();
-  await page.keyboard.down('Space');
-  await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBeGreaterThan(45);
-  await page.keyboard.up('Space');
+  await jogPast(page, 45);
   await becomesReady(page);
   await look(person, 'rig-dip-contact');
   await press(page, 'The object almost touches the water');
