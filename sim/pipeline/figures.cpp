@@ -39,6 +39,9 @@ DipFigures figures_of_pass(const StokesPass& pass) {
   figures.depth_mm = pass.stokes.depth_mm;
   figures.stopped_at_edge = pass.stopped_at_edge;
   figures.traps = pass.traps;
+  figures.coarse = pass.coarse;
+  figures.sections = pass.sections;
+  figures.sections_off = pass.sections_off;
   figures.passed_over_mm = pass.passed_over_mm;
   figures.steps = static_cast<int>(pass.stokes.fields.size());
   for (const velocity::VelocityField& field : pass.stokes.fields) {
@@ -108,6 +111,47 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
                    "not trust the map there. Turn the object or drill a vent",
                    three_digits(most->air_mm3 / 1000), and_others(count - 1)),
        where_of(*most)});
+}
+
+/// Returns the place at which waterlines are furthest apart compared with what the object needs.
+double coarsest_mm(const waterline::Coarseness& coarse) {
+  if (!coarse.unresolved.empty()) return coarse.unresolved.front().middle_mm();
+  return coarse.left_out_mm.empty() ? 0 : coarse.left_out_mm.front();
+}
+
+void warn_of_limit(const waterline::Coarseness& coarse, std::size_t most, Warnings& warnings) {
+  if (!coarse.any()) return;
+  std::string effects;
+  if (coarse.widening > 1) {
+    effects += fmt::format(" their distance is {} times the usual;", three_digits(coarse.widening));
+  }
+  if (!coarse.left_out_mm.empty()) {
+    effects += fmt::format(" {} small level faces or edges have none of their own;",
+                           coarse.left_out_mm.size());
+  }
+  if (!coarse.unresolved.empty()) {
+    effects +=
+        fmt::format(" {} changes of the waterline are located only to within {} mm;",
+                    coarse.unresolved.size(), three_digits(coarse.unresolved.front().width_mm()));
+  }
+  warnings.push_back(
+      {"waterlines_limited",
+       fmt::format(
+           "the object has more details than {} waterlines resolve:{} the map is less exact "
+           "there. Leave out small parts, or turn the object",
+           most, effects),
+       at_immersion(coarsest_mm(coarse))});
+}
+
+void warn_of_sections(const waterline::SectionsOff& off, Warnings& warnings) {
+  warnings.push_back(
+      {"sections_uncertain",
+       fmt::format("the mesh is open or its parts share edges, and its sections enclose {} cm3 "
+                   "where vertical lines through it find {} cm3: do not trust the map there. "
+                   "Repair the mesh in a 3D editor",
+                   three_digits(off.sections_mm3 / 1000), three_digits(off.columns_mm3 / 1000)),
+       fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(off.immersion_mm), off.place_mm.x(),
+                   off.place_mm.y())});
 }
 
 /// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
@@ -181,6 +225,8 @@ Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& opti
                         at_immersion(figures.depth_mm)});
   }
   warn_of_traps(figures.traps, warnings);
+  warn_of_limit(figures.coarse, options.schedule.most, warnings);
+  if (figures.sections_off) warn_of_sections(*figures.sections_off, warnings);
   return warnings;
 }
 

@@ -27,7 +27,7 @@ void measure_part(const mesh::Surface& surface, const waterline::Body& body,
 [[nodiscard]] Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options);
 
 /// Returns only the warnings about the motion of the waterline: film_edge_reached, film_trapped,
-/// air_trapped.
+/// air_trapped, waterlines_limited, sections_uncertain.
 [[nodiscard]] Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options);
 
 /// Returns only the warnings about what the model of the film ignores.

@@ -14,9 +14,11 @@
 #include "sim/mesh/surface.h"
 #include "sim/sheet/sheet_flow.h"
 #include "sim/velocity/film_mesh.h"
+#include "sim/waterline/check_sections.h"
 #include "sim/waterline/motion.h"
 #include "sim/waterline/schedule.h"
 #include "sim/waterline/traps.h"
+#include "sim/waterline/waterlines.h"
 
 namespace hydroprint::pipeline {
 
@@ -78,7 +80,10 @@ struct DipFigures {
   /// Displacement of the sheet in the last sweep, where the sheet tears or folds; see
   /// sheet::SheetFlow.
   double unsettled_mm = 0;
-  std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
+  std::vector<waterline::Trap> traps;            ///< trapped film and air, largest first
+  waterline::Coarseness coarse;                  ///< where waterlines are further apart than wanted
+  std::vector<waterline::SectionArea> sections;  ///< one per waterline
+  std::optional<waterline::SectionsOff> sections_off;  ///< see StokesPass
   /// Median, 95th percentile and maximum of the stretch, where theta is not clamped.
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };

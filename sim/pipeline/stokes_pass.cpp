@@ -1,9 +1,12 @@
 #include "sim/pipeline/stokes_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "sim/base/number_text.h"
 #include "sim/flow/flow_map.h"
 #include "sim/mesh/make_surface.h"
 #include "sim/sheet/inertial_flow.h"
@@ -22,6 +25,9 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   outline.max_mm = outline.max_mm.cwiseProduct(swelling);
   return outline;
 }
+
+/// Largest difference between sections and volume for meshes that are not closed.
+constexpr double kMostOffIfOpen = 0.2;
 
 /// Waterlines whose film cannot be meshed, because two of their curves nearly touch, are skipped.
 /// If their fraction exceeds this, the dip fails.
@@ -57,6 +63,49 @@ Result<std::vector<std::optional<velocity::VelocityField>>> solve(
   return fields;
 }
 
+/// Returns the refusal of a closed mesh whose sections do not agree with its volume.
+Error refusal_of(const waterline::SectionsOff& off, const StokesPass& pass,
+                 const waterline::Motion& motion) {
+  const Eigen::Vector2d at = off.place_mm - waterline::offset_at(motion, off.immersion_mm);
+  const Eigen::Vector3d place =
+      pass.X_FO.inverse() * Eigen::Vector3d(at.x(), at.y(), off.immersion_mm);
+  std::vector<int> faces;
+  for (const int t : off.triangles) {
+    const int face = pass.surface.source_triangle[static_cast<std::size_t>(t)] + 1;
+    if (std::ranges::find(faces, face) == faces.end() && faces.size() < 3) faces.push_back(face);
+  }
+  return {
+      Code::kInvalidArgument,
+      fmt::format("mesh: its sections enclose {} cm3, but vertical lines through it find {} cm3. "
+                  "They differ most at {:.2f} mm immersion, near ({:.2f}, {:.2f}, {:.2f}) mm of "
+                  "the mesh, at triangles {} of the file. Repair the mesh there in a 3D editor",
+                  three_digits(off.sections_mm3 / 1000), three_digits(off.columns_mm3 / 1000),
+                  off.immersion_mm, place.x(), place.y(), place.z(), fmt::join(faces, ", ")),
+      "SECTIONS_OFF"};
+}
+
+/// Returns how far the sections are off, as a share of the larger of the two volumes.
+double share_off(const waterline::SectionsOff& off) {
+  return std::abs(off.sections_mm3 - off.columns_mm3) / std::max(off.sections_mm3, off.columns_mm3);
+}
+
+/// Compares the sections with the body's volume. Closed meshes must agree. Open ones must agree
+/// roughly: otherwise their openings leave open what is inside.
+Status check(const std::vector<waterline::Waterline>& lines, const waterline::Motion& motion,
+             StokesPass& pass) {
+  pass.sections = waterline::section_areas(lines);
+  if (std::ranges::all_of(pass.sections, [](const auto& s) { return s.area_mm2 <= 0; })) {
+    return fail(Code::kInvalidArgument,
+                fmt::format("mesh: no section of the object is larger than {} mm2, so it moves no "
+                            "film. Check the scale, the millimetres per unit of the mesh",
+                            waterline::kLeastLoop_mm2));
+  }
+  pass.sections_off = waterline::check_sections(pass.body, lines, motion);
+  if (!pass.sections_off) return {};
+  if (!pass.surface.closed && share_off(*pass.sections_off) < kMostOffIfOpen) return {};
+  return tl::unexpected(refusal_of(*pass.sections_off, pass, motion));
+}
+
 }  // namespace
 
 Status check_solid(const mesh::Surface& surface, const mesh::Model& model) {
@@ -89,7 +138,9 @@ Result<StokesPass> run_stokes_pass(mesh::Surface surface, const DipOptions& opti
                                                  options.motion, options.schedule, context));
   out.stopped_at_edge = waterlines.stopped_at_edge;
   out.traps = waterlines.traps;
+  out.coarse = std::move(waterlines.coarse);
   out.stokes.depth_mm = waterlines.depth_mm;
+  HP_RETURN_IF_ERROR(check(waterlines.lines, options.motion, out));
   HP_ASSIGN_OR_RETURN(auto fields, solve(out.stokes.outline, waterlines, options.mesh, context));
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const double immersion_mm = waterlines.lines[k].immersion_mm;

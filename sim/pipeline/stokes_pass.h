@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/base/context.h"
@@ -9,7 +10,9 @@
 #include "sim/mesh/surface.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/waterline/body.h"
+#include "sim/waterline/check_sections.h"
 #include "sim/waterline/traps.h"
+#include "sim/waterline/waterlines.h"
 
 namespace hydroprint::pipeline {
 
@@ -22,7 +25,11 @@ struct StokesPass {
   flow::DipField stokes;
   std::vector<double> passed_over_mm;  ///< see DipFigures
   bool stopped_at_edge = false;
-  std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
+  std::vector<waterline::Trap> traps;            ///< trapped film and air, largest first
+  waterline::Coarseness coarse;                  ///< where waterlines are further apart than wanted
+  std::vector<waterline::SectionArea> sections;  ///< one per waterline
+  /// Set for meshes that are not closed, if their sections do not agree with their volume.
+  std::optional<waterline::SectionsOff> sections_off;
 };
 
 /// Returns kInvalidArgument for a surface without thickness, which encloses nothing and would let

@@ -10,7 +10,6 @@ namespace clip = ClipperLib;
 
 // Clipper uses integers. With units of 1e-6 mm, a vat of one metre is within its fast 32-bit range.
 constexpr double kUnits_per_mm = 1e6;
-constexpr double kLeastArea_mm2 = 1e-3;
 constexpr double kSlit_mm = 0.3;
 
 clip::IntPoint to_units(const Eigen::Vector2d& p) {
@@ -37,7 +36,7 @@ std::vector<Eigen::Vector2d> from_path(const clip::Path& path) {
 void collect(const clip::PolyNode& node, int parent, CrossSection& section) {
   for (const clip::PolyNode* child : node.Childs) {
     Loop loop{from_path(child->Contour), child->IsHole(), parent};
-    if (std::abs(signed_area(loop.points_mm)) < kLeastArea_mm2) continue;
+    if (std::abs(signed_area(loop.points_mm)) < kLeastLoop_mm2) continue;
     section.push_back(std::move(loop));
     collect(*child, static_cast<int>(section.size()) - 1, section);
   }

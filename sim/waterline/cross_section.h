@@ -19,8 +19,11 @@ struct Loop {
 /// union is used because the film sticks to the first surface that touches it.
 using CrossSection = std::vector<Loop>;
 
+/// Curves that enclose less are dropped.
+inline constexpr double kLeastLoop_mm2 = 1e-3;
+
 /// Merges contours by winding number; regions with a nonzero winding number are solid. Gaps
-/// narrower than 0.3 mm between curves are closed. Curves that enclose less than 0.001 mm2 are
+/// narrower than 0.3 mm between curves are closed. Curves that enclose less than kLeastLoop_mm2 are
 /// dropped.
 [[nodiscard]] CrossSection unite(const std::vector<Contour>& contours);
 

@@ -3,19 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
-#include <unordered_map>
 
 #include "sim/base/check.h"
+#include "sim/waterline/level_events.h"
 
 namespace hydroprint::waterline {
 namespace {
 
 constexpr int kBins = 8192;
-constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are not events
-constexpr double kLeastRim_mm = 5;       ///< shorter level edges are not events
 /// Corner normals with a smaller cosine between them make a crease.
 constexpr double kCreaseCosine = 0.8;
 /// Factor by which steps are shortened at creases. Across an upright crease, the direction of eq.
@@ -152,93 +149,81 @@ Bins collect(const Body& body, double shelf_slope_rad) {
   return bins;
 }
 
-/// Returns the levels at which the weights of heights within 1e-3 mm add up to at least `least`.
-std::vector<double> gather(std::vector<std::pair<double, double>> heights, double least) {
-  std::sort(heights.begin(), heights.end());
-  std::vector<double> levels;
-  for (std::size_t i = 0; i < heights.size();) {
-    const double start = heights[i].first;
-    double sum = 0;
-    for (; i < heights.size() && heights[i].first - start < 1e-3; ++i) sum += heights[i].second;
-    if (sum >= least) levels.push_back(start);
-  }
-  return levels;
-}
-
-std::vector<double> shelves(const Body& body, double shelf_slope_rad) {
-  std::vector<std::pair<double, double>> faces;
-  for (const Eigen::Vector3i& t : body.triangles) {
-    const Triangle m = measure(body, t);
-    if (m.sine < shelf_slope_rad) faces.emplace_back(0.5 * (m.low_mm + m.high_mm), m.area_mm2);
-  }
-  return gather(std::move(faces), kLeastShelf_mm2);
-}
-
-/// Returns the heights of level edges that are creases. The waterline's speed jumps along the whole
-/// edge.
-std::vector<double> rims(const Body& body) {
-  struct Side {
-    Eigen::Vector3d normal;
-    bool found = false;
-  };
-  std::unordered_map<std::uint64_t, Side> sides;
-  std::vector<std::pair<double, double>> creases;
-  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const int a = body.triangles[t][i];
-      const int b = body.triangles[t][(i + 1) % 3];
-      const Eigen::Vector3d& p = body.points_mm[a];
-      const Eigen::Vector3d& q = body.points_mm[b];
-      if (std::abs(p.z() - q.z()) > 1e-3) continue;
-      const auto [low, high] = std::minmax(a, b);
-      Side& side = sides[static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high)];
-      const Eigen::Vector3d& normal = body.corner_normals[t][a == low ? i : (i + 1) % 3];
-      if (!side.found) {
-        side = {normal, true};
-      } else if (side.normal.dot(normal) < 0.9) {
-        creases.emplace_back(p.z(), (p - q).norm());
-      }
-    }
-  }
-  return gather(std::move(creases), kLeastRim_mm);
-}
-
-}  // namespace
-
-std::vector<double> schedule(const Body& body, double depth_mm, const ScheduleOptions& options) {
-  HP_CHECK(depth_mm >= 0);
-  HP_CHECK(options.event_gap_mm > 0);
+/// Returns the immersions that divide the swept surface evenly. Their distance is multiplied by
+/// `widening` where they would be more than `most`.
+std::vector<double> divide_swept_surface(const Body& body, const ScheduleOptions& options,
+                                         std::size_t most, double& widening) {
   const double bin_mm = body.height_mm / kBins;
-  const double gap_mm = options.event_gap_mm;
-  std::vector<double> depths = {gap_mm, depth_mm - gap_mm};
-
   const Bins bins = collect(body, options.shelf_slope_rad);
   const double small = smallness(body);
-  double steps = 0, next = 1;
+  std::vector<double> steps(kBins, 0);
+  double sum = 0;
   for (int b = 0; b < kBins; ++b) {
     if (bins.length_mm[b] <= 0) continue;
     const double swept_mm = options.swept_mm * std::min(small, bins.smallness[b]);
     const double width_mm = bins.has_crease[b] != 0 ? swept_mm / kCreaseSteps : swept_mm;
-    const double here = std::min(bins.wetted_mm2[b] / (width_mm * bins.length_mm[b]), 4.0);
-    while (steps + here >= next) {
-      depths.push_back((b + (next - steps) / here) * bin_mm);
+    steps[b] = std::min(bins.wetted_mm2[b] / (width_mm * bins.length_mm[b]), 4.0);
+    sum += steps[b];
+  }
+  widening = std::max(1.0, sum / static_cast<double>(most));
+  std::vector<double> depths;
+  double done = 0, next = 1;
+  for (int b = 0; b < kBins; ++b) {
+    const double here = steps[b] / widening;
+    while (done + here >= next) {
+      depths.push_back((b + (next - done) / here) * bin_mm);
       ++next;
     }
-    steps += here;
+    done += here;
   }
-  for (const auto& levels : {shelves(body, options.shelf_slope_rad), rims(body)}) {
-    for (const double level : levels) {
-      depths.push_back(level - gap_mm);
-      depths.push_back(level + gap_mm);
+  return depths;
+}
+
+/// Returns true if there are edges, but no faces, within a distance of a level.
+bool is_edge(const std::vector<LevelEvent>& events, double level_mm, double within_mm) {
+  const auto is_there = [&](const LevelEvent& event) {
+    return std::abs(event.level_mm - level_mm) <= within_mm;
+  };
+  const auto first = std::ranges::find_if(events, is_there);  // faces come first
+  return first != events.end() && !first->is_face;
+}
+
+}  // namespace
+
+Schedule schedule(const Body& body, double depth_mm, const ScheduleOptions& options) {
+  HP_CHECK(depth_mm >= 0);
+  HP_CHECK(options.event_gap_mm > 0);
+  const double gap_mm = options.event_gap_mm;
+  Schedule out;
+  std::vector<double> depths = divide_swept_surface(body, options, options.most / 2, out.widening);
+  // A quarter of the limit remains for changes of the topology.
+  const std::size_t most_events = (options.most - options.most / 4 - depths.size()) / 2;
+  const std::vector<LevelEvent> events = level_events(body, options.shelf_slope_rad);
+  const double edge_gap_mm = std::max(gap_mm, std::min(options.edge_gap_mm, 0.01 * depth_mm));
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const LevelEvent& event = events[i];
+    if (event.level_mm < gap_mm || event.level_mm > depth_mm - gap_mm) continue;
+    if (i < most_events) {
+      depths.push_back(event.level_mm - gap_mm);
+      depths.push_back(event.level_mm + (event.is_face ? gap_mm : edge_gap_mm));
+    } else {
+      out.left_out_mm.push_back(event.level_mm);
     }
   }
+  const auto gap_at = [&](double level_mm) {
+    return is_edge(events, level_mm, gap_mm) ? edge_gap_mm : gap_mm;
+  };
+  const double first_mm = gap_at(0), last_mm = depth_mm - gap_at(depth_mm);
+  std::erase_if(depths, [&](double d) { return d < first_mm || d > last_mm; });
+  depths.push_back(first_mm);
+  depths.push_back(last_mm);
   std::sort(depths.begin(), depths.end());
-  std::vector<double> kept;
+  std::vector<double>& kept = out.depths_mm;
   for (const double d : depths) {
     const bool in_range = d >= 0.5 * gap_mm && d <= depth_mm - 0.5 * gap_mm;
     if (in_range && (kept.empty() || d - kept.back() > 0.5 * gap_mm)) kept.push_back(d);
   }
-  return kept;
+  return out;
 }
 
 }  // namespace hydroprint::waterline

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "sim/waterline/body.h"
@@ -22,13 +23,27 @@ struct ScheduleOptions {
   /// Distance from an event (a shelf, a level edge or a change of topology) to the waterlines just
   /// before and after it.
   double event_gap_mm = 2e-3;
+  /// Distance from a level edge to the first waterline after it, and from a level top edge to the
+  /// last before it. Closer to it, the film would be meshed around a needle as long as the edge.
+  double edge_gap_mm = 0.05;
+  /// Largest number of waterlines of a dip.
+  std::size_t most = 400;
+};
+
+/// Immersions at which to compute waterlines.
+struct Schedule {
+  std::vector<double> depths_mm;  ///< increasing
+  double widening = 1;  ///< factor by which steps are longer, because of ScheduleOptions::most
+  /// Levels of faces and edges that have no waterlines of their own for the same reason.
+  std::vector<double> left_out_mm;
 };
 
 /// Returns the immersions at which to compute waterlines, increasing, from just after first contact
 /// to just before the end of the dip. They are evenly spaced in swept surface, weighted by the
 /// speed of the film there, with additional ones on both sides of every level face and level sharp
-/// edge.
-[[nodiscard]] std::vector<double> schedule(const Body& body, double depth_mm,
-                                           const ScheduleOptions& options = {});
+/// edge. At most half of ScheduleOptions::most are for swept surface and at most three quarters in
+/// all; the rest is for changes of the topology.
+[[nodiscard]] Schedule schedule(const Body& body, double depth_mm,
+                                const ScheduleOptions& options = {});
 
 }  // namespace hydroprint::waterline

@@ -16,7 +16,6 @@ namespace {
 constexpr double kEdgeMargin_mm = 0.05;
 /// Smaller contours are ignored when deciding where to insert waterlines.
 constexpr double kLeastIsland_mm2 = 0.2;
-constexpr std::size_t kMostWaterlines = 3000;
 
 const Motion::Row* row_after(const Motion& motion, double immersion_mm) {
   const auto it =
@@ -127,29 +126,46 @@ void carry_film(const film::Outline& outline, const Waterline& before, Waterline
   }
 }
 
-/// Computes waterlines at the given immersions, and more where the topology changes between them.
-Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& motion,
-                                        const std::vector<double>& depths, double event_gap_mm,
-                                        const Context& context) {
+/// The waterlines of a dip, and where they are too far apart.
+struct TakenLines {
+  std::vector<Waterline> lines;
+  std::vector<Gap> coarse;
+};
+
+/// Returns the gaps between waterlines of different topology, widest first.
+std::vector<Gap> unresolved_gaps(const std::vector<Waterline>& lines, double least_mm) {
+  std::vector<Gap> gaps;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const Gap gap{lines[i - 1].immersion_mm, lines[i].immersion_mm};
+    if (gap.width_mm() > least_mm && signature(lines[i]) != signature(lines[i - 1])) {
+      gaps.push_back(gap);
+    }
+  }
+  std::ranges::stable_sort(gaps, std::ranges::greater{}, &Gap::width_mm);
+  return gaps;
+}
+
+/// Computes waterlines at the given immersions, and more where the topology changes between them,
+/// until the changes are located or the limit is reached.
+Result<TakenLines> take_all(const Slicer& slicer, const Motion& motion,
+                            const std::vector<double>& depths, const ScheduleOptions& options,
+                            const Context& context) {
   HP_CHECK(std::is_sorted(depths.begin(), depths.end()));
-  std::vector<Waterline> lines(depths.size());
+  TakenLines out;
+  std::vector<Waterline>& lines = out.lines;
+  lines.resize(depths.size());
   HP_RETURN_IF_ERROR(
       parallel_for(context, "waterline", depths.size(), [&](std::size_t i) -> Status {
         lines[i] = take(slicer, motion, depths[i]);
         return {};
       }));
-  while (lines.size() < kMostWaterlines) {
-    std::vector<double> more;
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      const double gap = lines[i].immersion_mm - lines[i - 1].immersion_mm;
-      if (gap > 5 * event_gap_mm && signature(lines[i]) != signature(lines[i - 1])) {
-        more.push_back(0.5 * (lines[i].immersion_mm + lines[i - 1].immersion_mm));
-      }
-    }
-    if (more.empty()) break;
-    std::vector<Waterline> added(more.size());
-    HP_RETURN_IF_ERROR(parallel_for(context, {}, more.size(), [&](std::size_t i) -> Status {
-      added[i] = take(slicer, motion, more[i]);
+  while (true) {
+    out.coarse = unresolved_gaps(lines, 5 * options.event_gap_mm);
+    const std::size_t room = options.most - std::min(options.most, lines.size());
+    std::vector<Waterline> added(std::min(room, out.coarse.size()));
+    if (added.empty()) break;
+    HP_RETURN_IF_ERROR(parallel_for(context, {}, added.size(), [&](std::size_t i) -> Status {
+      added[i] = take(slicer, motion, out.coarse[i].middle_mm());
       return {};
     }));
     for (Waterline& line : added) lines.push_back(std::move(line));
@@ -157,7 +173,7 @@ Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& moti
       return a.immersion_mm < b.immersion_mm;
     });
   }
-  return lines;
+  return out;
 }
 
 /// Truncates the list where the waterline reaches the film's edge, and adds a last waterline just
@@ -191,7 +207,7 @@ void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outlin
 Result<std::vector<Waterline>> take_beyond(const Slicer& slicer, const Body& body, double depth_mm,
                                            const Motion& motion, const ScheduleOptions& options,
                                            const Context& context) {
-  std::vector<double> depths = schedule(body, body.height_mm, options);
+  std::vector<double> depths = schedule(body, body.height_mm, options).depths_mm;
   depths.erase(depths.begin(), std::upper_bound(depths.begin(), depths.end(), depth_mm));
   std::vector<Waterline> lines(depths.size());
   HP_RETURN_IF_ERROR(parallel_for(context, {}, depths.size(), [&](std::size_t i) -> Status {
@@ -248,10 +264,14 @@ Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outlin
   result.depth_mm = std::min(depth_mm, body.height_mm);
   HP_RETURN_IF_ERROR(
       check_first_contact(body, outline, take(slicer, motion, options.event_gap_mm), motion));
-  HP_ASSIGN_OR_RETURN(result.lines,
-                      take_all(slicer, motion, schedule(body, result.depth_mm, options),
-                               options.event_gap_mm, context));
+  const Schedule planned = schedule(body, result.depth_mm, options);
+  HP_ASSIGN_OR_RETURN(TakenLines taken,
+                      take_all(slicer, motion, planned.depths_mm, options, context));
+  result.lines = std::move(taken.lines);
+  result.coarse = {planned.widening, planned.left_out_mm, std::move(taken.coarse)};
   stop_at_edge(slicer, motion, outline, result);
+  std::erase_if(result.coarse.unresolved,
+                [&](const Gap& gap) { return gap.from_mm >= result.depth_mm; });
   const Waterline rest;
   for (std::size_t i = 0; i < result.lines.size(); ++i) {
     carry_film(outline, i == 0 ? rest : result.lines[i - 1], result.lines[i]);

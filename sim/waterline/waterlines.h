@@ -26,12 +26,31 @@ struct Waterline {
   PullIndex pulls;
 };
 
+/// The distance between two neighbouring waterlines.
+struct Gap {
+  double from_mm = 0, to_mm = 0;  ///< immersions
+  [[nodiscard]] double width_mm() const { return to_mm - from_mm; }
+  [[nodiscard]] double middle_mm() const { return 0.5 * (from_mm + to_mm); }
+};
+
+/// Where waterlines are further apart than wanted, because of ScheduleOptions::most.
+struct Coarseness {
+  double widening = 1;              ///< see Schedule
+  std::vector<double> left_out_mm;  ///< see Schedule
+  /// Gaps in which the topology changes at an immersion that was not located, widest first.
+  std::vector<Gap> unresolved;
+  [[nodiscard]] bool any() const {
+    return widening > 1 || !left_out_mm.empty() || !unresolved.empty();
+  }
+};
+
 /// All waterlines of one dip, by increasing immersion.
 struct Waterlines {
   std::vector<Waterline> lines;
   double depth_mm = 0;           ///< immersion at which the dip ends
   bool stopped_at_edge = false;  ///< the dip ends because the waterline reached the film's edge
   std::vector<Trap> traps;       ///< enclosed film and air, largest first
+  Coarseness coarse;
 };
 
 /// Returns the horizontal offset of the object at an immersion, mm: linear between the motion's
@@ -43,7 +62,8 @@ struct Waterlines {
 [[nodiscard]] Eigen::Vector2d drift_at(const Motion& motion, double immersion_mm);
 
 /// Computes the waterlines of a dip at the scheduled immersions, and more closely where contours
-/// appear, vanish, split or merge (by bisection down to `event_gap_mm` * 5). Keeps track of which
+/// appear, vanish, split or merge (by bisection down to `event_gap_mm` * 5), but not more than
+/// ScheduleOptions::most, plus one at the film's edge. Keeps track of which
 /// holes contain film; a hole that opens inside the cross-section contains no film.
 /// @param outline  the floating film; the dip ends where the waterline reaches its edge
 /// @return kFailedPrecondition if the first contact misses the film

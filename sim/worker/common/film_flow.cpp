@@ -12,6 +12,14 @@
 namespace hydroprint::worker {
 namespace {
 
+Json sections_json(const std::vector<waterline::SectionArea>& sections) {
+  Json out = Json::array();
+  for (const waterline::SectionArea& section : sections) {
+    out.push_back({{"depth_mm", section.depth_mm}, {"area_mm2", section.area_mm2}});
+  }
+  return out;
+}
+
 Json ink_passes_json(const std::vector<pipeline::InkPass>& passes) {
   Json out = Json::array();
   for (const pipeline::InkPass& pass : passes) {
@@ -152,6 +160,7 @@ Json DipFindings::report(const FlowOptions& options, std::array<int, 2> film_ima
             {"film_vertices_max", f.film_vertices_max},
             {"film_triangles_max", f.film_triangles_max}}},
           {"steps", f.steps},
+          {"sections", sections_json(f.sections)},
           {"waterlines_passed_over", f.passed_over_mm.size()},
           {"depth_mm", f.depth_mm},
           {"stopped_at_film_edge", f.stopped_at_edge},

@@ -143,6 +143,21 @@ TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
   EXPECT_TRUE(some[0].where.starts_with("3.5")) << some[0].where;
 }
 
+TEST(Warnings, WaterlinesLimitedNamesTheEffectsAndTheWorstPlace) {
+  DipFigures figures;
+  EXPECT_EQ(warnings_of_waterline(figures, DipOptions{}).size(), 0U);
+  figures.coarse.widening = 1.5;
+  figures.coarse.left_out_mm = {7, 8};
+  figures.coarse.unresolved = {{20, 21}, {3, 3.5}};
+  const Warnings some = warnings_of_waterline(figures, DipOptions{});
+  ASSERT_EQ(some.size(), 1U);
+  EXPECT_EQ(some.front().code, "waterlines_limited");
+  EXPECT_EQ(some.front().where, "20.50 mm immersion");
+  for (const char* part : {"400 waterlines", "1.5 times", "2 small level", "2 changes", "1 mm"}) {
+    EXPECT_NE(some.front().message.find(part), std::string::npos) << part;
+  }
+}
+
 TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
   // Film between two legs that join at the bottom is drawn towards both until it folds.
   const Result<mesh::Model> bend = sample::make_model("ubend");

@@ -237,6 +237,29 @@ TEST(Motion, IsConstantBeforeItsFirstAndAfterItsLastRow) {
   EXPECT_EQ(offset_at({}, 3), Vector2d(0, 0));
 }
 
+TEST(Waterlines, AreNotMoreThanTheLimitAndSayWhereTheyAreCoarse) {
+  // Pins of different lengths under a plate: each contact changes the topology.
+  std::vector<mesh::Model> pins = {testing::box({-50, -50, 30}, {50, 50, 34})};
+  for (int i = 0; i < 25; ++i) {
+    const Vector3d at(-44 + 22.0 * (i % 5), -44 + 22.0 * (i / 5), 1.1 * i);
+    pins.push_back(testing::box(at, {at.x() + 4, at.y() + 4, 31}));
+  }
+  const Body body = testing::body_of(testing::together(pins));
+  ScheduleOptions options;
+  const auto all = take_waterlines(body, outline_of("A4"), body.height_mm, {}, options, {});
+  ASSERT_TRUE(all);
+  EXPECT_FALSE(all->coarse.any());
+  options.most = all->lines.size() / 2;
+  const auto half = take_waterlines(body, outline_of("A4"), body.height_mm, {}, options, {});
+  ASSERT_TRUE(half);
+  EXPECT_LE(half->lines.size(), options.most);
+  EXPECT_TRUE(half->coarse.any());
+  const std::vector<Gap>& gaps = half->coarse.unresolved;
+  for (std::size_t i = 1; i < gaps.size(); ++i) {
+    EXPECT_GE(gaps[i - 1].width_mm(), gaps[i].width_mm());
+  }
+}
+
 TEST(Waterlines, StopWhenCancelled) {
   Context context;
   context.cancelled = [] { return true; };
