@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "sim/base/number_text.h"
 #include "sim/mesh/coincident.h"
 #include "sim/mesh/edges.h"
+#include "sim/mesh/holes.h"
 #include "sim/mesh/inner.h"
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
@@ -122,6 +124,31 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
                      found.shells, found.cavities));
 }
 
+/// Names the place and the size of the largest holes.
+std::string largest_holes(const std::vector<Hole>& holes) {
+  constexpr std::size_t kNamed = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(kNamed, holes.size()); ++i) {
+    // Adding zero turns -0.0 into 0.0.
+    const Eigen::Array3d p = (10 * holes[i].middle_mm.array()).round() / 10 + 0.0;
+    out += fmt::format("{}{} mm around ({:.1f}, {:.1f}, {:.1f}) mm", i == 0 ? "" : ", ",
+                       three_digits(holes[i].length_mm), p.x(), p.y(), p.z());
+  }
+  return out + (holes.size() > kNamed ? ", ..." : "");
+}
+
+void warn_about_holes(const Model& model, const Edges& edges, const Patchwork& work,
+                      Surface& surface) {
+  const std::vector<Hole> holes = holes_of(work.points, work.weld, work.triangles, edges);
+  if (holes.empty()) return;
+  std::size_t open = 0;
+  for (const Hole& hole : holes) open += hole.edges;
+  warn(surface, model, "mesh_open",
+       fmt::format("the mesh has {} boundary edges in {} hole{} ({}); they are closed by straight "
+                   "lines at each waterline. Close large holes in a 3D editor",
+                   open, holes.size(), holes.size() == 1 ? "" : "s", largest_holes(holes)));
+}
+
 /// @return true if every edge has two faces with opposite directions
 bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, Surface& surface) {
   std::size_t open = 0;
@@ -138,11 +165,7 @@ bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, 
       ++opposed;
     }
   }
-  if (open > 0)
-    warn(surface, model, "mesh_open",
-         fmt::format("the mesh has {} boundary edges; its openings are closed by straight lines at "
-                     "each waterline",
-                     open));
+  if (open > 0) warn_about_holes(model, edges, work, surface);
   if (crowded > 0)
     warn(surface, model, "mesh_non_manifold",
          fmt::format("{} edges have more than two faces: the outermost surface is used", crowded));
