@@ -50,4 +50,13 @@ Edges::Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<in
   begin_.push_back(items.size());
 }
 
+Groups shells_of(std::size_t count, const Edges& edges) {
+  Groups out(count);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (const int side : edges.sides(e))
+      out.join(static_cast<std::size_t>(edges.sides(e)[0] / 3), static_cast<std::size_t>(side / 3));
+  }
+  return out;
+}
+
 }  // namespace hydroprint::mesh

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/mesh/groups.h"
+
 namespace hydroprint::mesh {
 
 /// The sides of triangles, grouped by edge. Side s = 3 t + k of triangle t runs from its corner k
@@ -38,5 +40,8 @@ struct SideEnds {
   return {weld[static_cast<std::size_t>(t[side % 3])],
           weld[static_cast<std::size_t>(t[(side + 1) % 3])]};
 }
+
+/// Groups the triangles 0 ... count - 1 into shells: parts that share no edge.
+[[nodiscard]] Groups shells_of(std::size_t count, const Edges& edges);
 
 }  // namespace hydroprint::mesh

@@ -1,27 +1,17 @@
 #include "sim/mesh/inner.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
+#include <vector>
 
 #include "sim/mesh/edges.h"
-#include "sim/mesh/groups.h"
+#include "sim/mesh/rays.h"
 #include "sim/mesh/weld.h"
 
 namespace hydroprint::mesh {
 namespace {
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 /// Distance of the rays' origin from the triangle, relative to the model's diagonal.
 constexpr double kJustOutside = 1e-5;
@@ -33,51 +23,34 @@ const std::array<Eigen::Vector3d, 3> kDirections = {Eigen::Vector3d(0.3141, 0.27
                                                     Eigen::Vector3d(-0.8023, 0.1732, 0.5713),
                                                     Eigen::Vector3d(0.2237, -0.9311, -0.2877)};
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-std::array<Eigen::Vector3d, 3> corners_of(const Surface& surface, std::size_t t) {
+Corners corners_of(const Surface& surface, std::size_t t) {
   const Eigen::Vector3i& v = surface.triangles[t];
   return {surface.points[static_cast<std::size_t>(v[0])],
           surface.points[static_cast<std::size_t>(v[1])],
           surface.points[static_cast<std::size_t>(v[2])]};
 }
 
-Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) {
-  return (c[1] - c[0]).cross(c[2] - c[0]);
-}
+Eigen::Vector3d normal_of(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
 
 /// Returns the triangles of closed shells: those that share no edge with an open one.
-std::vector<std::size_t> closed_triangles(const Surface& surface) {
+std::vector<Corners> closed_triangles(const Surface& surface) {
   const Edges edges(surface.triangles, surface.weld);
-  Groups shells(surface.triangles.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const int side : edges.sides(e))
-      shells.join(static_cast<std::size_t>(edges.sides(e)[0] / 3),
-                  static_cast<std::size_t>(side / 3));
-  }
+  Groups shells = shells_of(surface.triangles.size(), edges);
   std::vector<char> is_open(surface.triangles.size(), 0);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.sides(e).size() % 2 != 0)
       is_open[shells.find(static_cast<std::size_t>(edges.sides(e)[0] / 3))] = 1;
   }
-  std::vector<std::size_t> out;
+  std::vector<Corners> out;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (is_open[shells.find(t)] == 0) out.push_back(t);
+    if (is_open[shells.find(t)] == 0) out.push_back(corners_of(surface, t));
   return out;
 }
 
 /// Closed shells, and how often they wind around a point.
 class Windings {
  public:
-  explicit Windings(const Surface& surface) {
-    for (const std::size_t t : closed_triangles(surface)) {
-      const auto c = corners_of(surface, t);
-      normals_.push_back(normal_of(c));
-      triangles_.emplace_back(to_cgal(c[0]), to_cgal(c[1]), to_cgal(c[2]));
-    }
-    tree_.insert(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
-  }
+  explicit Windings(const Surface& surface) : tree_(closed_triangles(surface)) {}
 
   [[nodiscard]] bool is_inside(const Eigen::Vector3d& p) const {
     const bool first = winding(p, kDirections[0]) > 0, second = winding(p, kDirections[1]) > 0;
@@ -86,21 +59,14 @@ class Windings {
 
  private:
   [[nodiscard]] int winding(const Eigen::Vector3d& p, const Eigen::Vector3d& direction) const {
-    const Kernel::Ray_3 ray(to_cgal(p),
-                            Kernel::Vector_3(direction.x(), direction.y(), direction.z()));
-    std::vector<Triangles::const_iterator> hits;
-    tree_.all_intersected_primitives(ray, std::back_inserter(hits));
+    std::vector<RayHit> hits;
+    tree_.find_hits(p, direction, hits);
     int sum = 0;
-    for (const auto& hit : hits) {
-      const auto i = static_cast<std::size_t>(std::distance(triangles_.cbegin(), hit));
-      sum += normals_[i].dot(direction) > 0 ? 1 : -1;
-    }
+    for (const RayHit& hit : hits) sum += hit.from_behind ? 1 : -1;
     return sum;
   }
 
-  Triangles triangles_;
-  std::vector<Eigen::Vector3d> normals_;
-  Tree tree_;
+  RayTree tree_;
 };
 
 }  // namespace

@@ -124,6 +124,20 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
                      found.shells, found.cavities));
 }
 
+std::string open_shells(std::size_t count) {
+  return fmt::format("the outer side of {} open shell{}", count, count == 1 ? "" : "s");
+}
+
+void warn_about_sides(const Model& model, const Orientation& found, Surface& surface) {
+  std::string message;
+  if (found.by_rays > 0) message = open_shells(found.by_rays) + " was found by rays";
+  if (found.undecided > 0)
+    message += (message.empty() ? "" : "; ") + open_shells(found.undecided) +
+               " is a guess, because rays did not decide. Close the holes in a 3D editor, or give "
+               "sheets a thickness";
+  if (!message.empty()) warn(surface, model, "sides_by_rays", std::move(message));
+}
+
 /// Names the place and the size of the largest holes.
 std::string largest_holes(const std::vector<Hole>& holes) {
   constexpr std::size_t kNamed = 3;
@@ -196,11 +210,14 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
 
   Edges edges(work.triangles, work.weld);
   context.progress("surface", 0.3);
-  const auto orientation = orient(work.points, work.weld, work.triangles, edges);
+  HP_ASSIGN_OR_RETURN(Orientation orientation,
+                      orient(work.points, work.weld, work.triangles, edges, context));
   if (turn_over(work, orientation.flip)) edges = Edges(work.triangles, work.weld);
   surface.closed = check_edges(model, edges, work, surface);
   surface.is_flat = orientation.is_flat;
+  surface.shells = std::move(orientation.largest);
   warn_about_orientation(model, orientation, surface);
+  warn_about_sides(model, orientation, surface);
   HP_RETURN_IF_ERROR(check_cancelled(context));
 
   context.progress("surface", 0.5);

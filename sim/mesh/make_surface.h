@@ -17,8 +17,8 @@ inline constexpr std::size_t kMaxSubdividedTriangles = 8'000'000;
 /// non-manifold, with many shells, inside out. Surface::warnings lists the assumptions made. Points
 /// added by subdivision are shared across UV seams; the model's own points stay unchanged. Errors:
 /// kInvalidArgument for an edge length that is not positive and for a model whose faces are all
-/// degenerate, kResourceExhausted for more than kMaxSubdividedTriangles. Takes time linear in the
-/// number of triangles; the result does not depend on the number of threads.
+/// degenerate, kResourceExhausted for more than kMaxSubdividedTriangles. Takes about n
+/// log n time for n triangles; the result does not depend on the number of threads.
 [[nodiscard]] Result<Surface> make_surface(const Model& model, double max_edge_mm,
                                            const Context& context);
 

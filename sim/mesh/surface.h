@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/mesh/model.h"
+#include "sim/mesh/shell.h"
 
 namespace hydroprint::mesh {
 
@@ -35,7 +36,8 @@ struct Surface {
   }
   bool closed = false;   ///< every welded edge has exactly two triangles, consistently oriented
   bool is_flat = false;  ///< a sheet without thickness, which encloses nothing
-  Warnings warnings;     ///< assumptions: open, non-manifold, inside out, several shells
+  std::vector<Shell> shells;  ///< the kShellsListed largest by area, the largest first
+  Warnings warnings;          ///< assumptions: open, non-manifold, inside out, several shells
 };
 
 }  // namespace hydroprint::mesh

@@ -429,6 +429,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
   const Surface surface = made(model);
   EXPECT_TRUE(has_warning(surface, "inconsistent_orientation"));
   EXPECT_FALSE(surface.closed);
+  EXPECT_TRUE(surface.is_flat);
 }
 
 TEST(Icosphere, HasTheTrianglesOfItsLevelAndFacesOutward) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "sim/mesh/edges.h"
+
+namespace hydroprint::mesh {
+
+/// Triangles connected across edges of exactly two faces.
+struct Patch {
+  std::vector<std::size_t> triangles;
+  double area_mm2 = 0;
+  /// Positive if the faces look outward after Patches::flip. Open patches are closed by a cone to
+  /// the middle of their boundary.
+  double volume_mm3 = 0;
+  bool is_closed = true;      ///< without boundary, and with two sides
+  bool is_one_sided = false;  ///< like a Moebius strip
+  bool is_flat = false;       ///< its volume is negligible, and set to zero
+};
+
+/// The patches of a mesh, and the triangles to flip so that the faces of each patch agree.
+struct Patches {
+  std::vector<Patch> patches;    ///< in the order of their first triangles
+  std::vector<bool> flip;        ///< for each triangle; the minority of each patch
+  std::size_t inconsistent = 0;  ///< triangles to flip
+  std::size_t one_sided = 0;     ///< edges whose faces cannot agree (Moebius strips)
+};
+
+[[nodiscard]] Patches find_patches(const std::vector<Eigen::Vector3d>& points,
+                                   const std::vector<int>& weld,
+                                   const std::vector<Eigen::Vector3i>& triangles,
+                                   const Edges& edges);
+
+}  // namespace hydroprint::mesh
