@@ -29,6 +29,9 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
 /// Largest difference between sections and volume for meshes that are not closed.
 constexpr double kMostOffIfOpen = 0.2;
 
+/// Shorter dips, as shares of the body's height, may end before the first section of its tip.
+constexpr double kShortDip = 0.05;
+
 /// Waterlines whose film cannot be meshed, because two of their curves nearly touch, are skipped.
 /// If their fraction exceeds this, the dip fails.
 constexpr double kMostPassedOver = 0.2;
@@ -91,16 +94,20 @@ double share_off(const waterline::SectionsOff& off) {
 
 /// Compares the sections with the body's volume. Closed meshes must agree. Open ones must agree
 /// roughly: otherwise their openings leave open what is inside.
-Status check(const std::vector<waterline::Waterline>& lines, const waterline::Motion& motion,
+Status check(const waterline::Waterlines& waterlines, const waterline::Motion& motion,
              StokesPass& pass) {
-  pass.sections = waterline::section_areas(lines);
-  if (std::ranges::all_of(pass.sections, [](const auto& s) { return s.area_mm2 <= 0; })) {
-    return fail(Code::kInvalidArgument,
-                fmt::format("mesh: no section of the object is larger than {} mm2, so it moves no "
-                            "film. Check the scale, the millimetres per unit of the mesh",
-                            waterline::kLeastLoop_mm2));
+  pass.sections = waterline::section_areas(waterlines.lines);
+  const bool is_short = waterlines.depth_mm < kShortDip * pass.body.height_mm;
+  const auto is_empty = [](const waterline::SectionArea& s) { return s.area_mm2 <= 0; };
+  if (!waterlines.stopped_at_edge && !is_short && std::ranges::all_of(pass.sections, is_empty)) {
+    return fail(
+        Code::kInvalidArgument,
+        fmt::format("no waterline of the object has a section larger than {} mm2, so it does not "
+                    "move the film. Check the unit of the model, or give it a thickness of at "
+                    "least 0.5 mm in a 3D editor (\"solidify\")",
+                    waterline::kLeastLoop_mm2));
   }
-  pass.sections_off = waterline::check_sections(pass.body, lines, motion);
+  pass.sections_off = waterline::check_sections(pass.body, waterlines.lines, motion);
   if (!pass.sections_off) return {};
   if (!pass.surface.closed && share_off(*pass.sections_off) < kMostOffIfOpen) return {};
   return tl::unexpected(refusal_of(*pass.sections_off, pass, motion));
@@ -140,7 +147,7 @@ Result<StokesPass> run_stokes_pass(mesh::Surface surface, const DipOptions& opti
   out.traps = waterlines.traps;
   out.coarse = std::move(waterlines.coarse);
   out.stokes.depth_mm = waterlines.depth_mm;
-  HP_RETURN_IF_ERROR(check(waterlines.lines, options.motion, out));
+  HP_RETURN_IF_ERROR(check(waterlines, options.motion, out));
   HP_ASSIGN_OR_RETURN(auto fields, solve(out.stokes.outline, waterlines, options.mesh, context));
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const double immersion_mm = waterlines.lines[k].immersion_mm;

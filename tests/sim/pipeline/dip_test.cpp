@@ -254,6 +254,20 @@ TEST(Dip, AcceptsBrokenBodiesAndRefusesSheetsWithoutThickness) {
   EXPECT_NE(refused.error().message.find("thickness"), std::string::npos);
 }
 
+TEST(Dip, RefusesBodiesWithoutSectionsUnlessTheDipIsShort) {
+  for (const mesh::Model& thin :
+       {bodies::box({0, 0, 0}, {0.01, 0.01, 20}), bodies::box({0, 0, 0}, {20, 20, 1e-4}),
+        bodies::box({0, 0, 0}, {1e-3, 1e-3, 1e-3})}) {
+    DipOptions options = options_for("60x60");
+    const auto refused = dip(thin, options, {});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
+    EXPECT_NE(refused.error().message.find("thickness"), std::string::npos);
+    options.depth_mm = 0;
+    EXPECT_TRUE(dip(thin, options, {}));
+  }
+}
+
 TEST(Dip, AcceptsPartsThatTouchUpToRounding) {
   for (const double gap_mm : {1e-3, 1e-5, 2e-6}) {
     pipeline::DipOptions options;
