@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/number_text.h"
@@ -26,6 +27,32 @@ Json ink_passes_json(const std::vector<pipeline::InkPass>& passes) {
     out.push_back({{"moved_rms_mm", pass.moved_rms_mm},
                    {"moved_p999_mm", pass.moved_most_mm},
                    {"moved_max_mm", pass.moved_max_mm}});
+  }
+  return out;
+}
+
+std::string_view rule_name(mesh::SideRule rule) {
+  switch (rule) {
+    case mesh::SideRule::kVolume:
+      return "volume";
+    case mesh::SideRule::kCavity:
+      return "cavity";
+    case mesh::SideRule::kRays:
+      return "rays";
+    case mesh::SideRule::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
+Json shells_json(const std::vector<mesh::Shell>& shells) {
+  Json out = Json::array();
+  for (const mesh::Shell& shell : shells) {
+    out.push_back({{"triangles", shell.triangles},
+                   {"area_mm2", shell.area_mm2},
+                   {"closed", shell.closed},
+                   {"rule", rule_name(shell.rule)},
+                   {"turned_over", shell.turned_over}});
   }
   return out;
 }
@@ -130,6 +157,7 @@ DipFindings::DipFindings(const pipeline::DipOptions& dip, const mesh::Model& mod
       mesh_{model.vertices.size(), model.triangles.size()},
       surface_{result.surface.points.size(), result.surface.triangles.size()},
       closed_(result.surface.closed),
+      shells_(result.surface.shells),
       figures_(result.figures) {
   dip_.outline = dip.outline;
   dip_.profile = dip.profile;
@@ -157,6 +185,7 @@ Json DipFindings::report(const FlowOptions& options, std::array<int, 2> film_ima
             {"surface_points", surface_.vertices},
             {"surface_triangles", surface_.triangles},
             {"closed", closed_},
+            {"shells", shells_json(shells_)},
             {"film_vertices_max", f.film_vertices_max},
             {"film_triangles_max", f.film_triangles_max}}},
           {"steps", f.steps},

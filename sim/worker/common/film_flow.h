@@ -7,6 +7,7 @@
 
 #include "sim/base/process/progress.h"
 #include "sim/mesh/model.h"
+#include "sim/mesh/shell.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/worker/common/dip.h"
 #include "sim/worker/common/report.h"
@@ -92,6 +93,7 @@ class DipFindings {
   Pose X_FO_ = Pose::Identity();
   MeshSize mesh_, surface_;
   bool closed_ = false;
+  std::vector<mesh::Shell> shells_;
   pipeline::DipFigures figures_;
 };
 

@@ -177,6 +177,13 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   EXPECT_EQ(parameters["pose"]["translation_mm"][1], -4);
   EXPECT_NEAR(parameters["pose"]["translation_mm"][2].get<double>(), 12, 1e-5);
   EXPECT_EQ(report["mesh"]["triangles"], 2 * 24 * 11);
+  ASSERT_EQ(report["mesh"]["shells"].size(), 1U);
+  const auto& shell = report["mesh"]["shells"][0];
+  EXPECT_EQ(shell["triangles"], 2 * 24 * 11);
+  EXPECT_GT(shell["area_mm2"], 0);
+  EXPECT_EQ(shell["closed"], true);
+  EXPECT_EQ(shell["rule"], "volume");
+  EXPECT_EQ(shell["turned_over"], false);
   EXPECT_GT(report["steps"], 5);
   EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
   EXPECT_NEAR(report["depth_mm"].get<double>(), 10, 1e-9);
