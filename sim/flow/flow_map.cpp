@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/base/check.h"
 #include "sim/flow/jacobian.h"
@@ -62,7 +63,9 @@ Result<FlowMap> make_flow_map(const mesh::Surface& surface, const waterline::Bod
   }
   measure_stretch(surface, body, film, map.surface);
   if (!options.make_tiles) return map;
-  HP_ASSIGN_OR_RETURN(map.tiles, make_tiles(body, dip, landings, film, options, context));
+  HP_ASSIGN_OR_RETURN(Tiles tiles, make_tiles(body, dip, landings, film, options, context));
+  map.tiles = std::move(tiles.tiles);
+  map.is_limited = tiles.is_limited;
   return map;
 }
 

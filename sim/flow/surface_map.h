@@ -32,6 +32,7 @@ struct MappedTriangle {
 struct FlowMap {
   SurfaceMap surface;
   std::vector<MappedTriangle> tiles;
+  bool is_limited = false;  ///< tiles are larger than wanted, because of a limit on their number
 };
 
 }  // namespace hydroprint::flow

@@ -21,6 +21,10 @@ constexpr std::size_t kMostEdges = 400000;
 /// After this many levels, a 2 mm edge is shorter than a pixel; slivers could be divided without
 /// end.
 constexpr int kMostLevels = 6;
+/// Most edges that are traced in all levels: half a minute of processor time with 400 waterlines.
+constexpr std::size_t kMostTraced = 800000;
+/// Where that limit ends the division, deviations up to this one are accepted.
+constexpr double kCoarse_mm = 0.25;
 
 /// A corner of tiles: its place on the surface and the film point that lands there (NaN: none).
 struct Node {
@@ -109,7 +113,7 @@ class Tiler {
     return {};
   }
 
-  std::vector<MappedTriangle> take() { return std::move(done_); }
+  Tiles take() { return {std::move(done_), is_limited_}; }
 
  private:
   /// Marks edges of the mesh itself as linear if the map along them deviates from a straight line
@@ -176,7 +180,11 @@ class Tiler {
 
   /// Decides for each traced edge whether it is linear, should be divided, or crosses a jump.
   void judge(const std::vector<Edge>& edges) {
-    const bool may_divide = edges.size() < kMostEdges && level_ < kMostLevels;
+    traced_ += edges.size();
+    const bool is_limited = edges.size() >= kMostEdges || traced_ >= kMostTraced;
+    const bool may_divide = !is_limited && level_ < kMostLevels;
+    is_limited_ = is_limited_ || is_limited;
+    const double tolerance_mm = is_limited ? std::max(tolerance_mm_, kCoarse_mm) : tolerance_mm_;
     for (const Edge& edge : edges) {
       const Node& a = nodes_[edge.a];
       const Node& b = nodes_[edge.b];
@@ -186,7 +194,7 @@ class Tiler {
       EdgeState state = EdgeState::kLinear;
       const double surface_mm = (b.surface_mm - a.surface_mm).norm();
       if (std::min(off_mm, edge.off_on_surface_mm(off)) <=
-          tolerance_mm_) {  // false if any of the three film points is NaN
+          tolerance_mm) {  // false if any of the three film points is NaN
         state = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
         state = EdgeState::kLinear;  // nothing lands there at all
@@ -292,6 +300,8 @@ class Tiler {
   const MapOptions& options_;
   double tolerance_mm_;  ///< tolerance at the current level of division
   int level_ = 0;
+  std::size_t traced_ = 0;  ///< edges, in all levels
+  bool is_limited_ = false;
   std::vector<Node> nodes_;
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
@@ -301,10 +311,9 @@ class Tiler {
 
 }  // namespace
 
-Result<std::vector<MappedTriangle>> make_tiles(const waterline::Body& body, const DipField& dip,
-                                               const Landings& landings,
-                                               const std::vector<Vector2d>& film_mm,
-                                               const MapOptions& options, const Context& context) {
+Result<Tiles> make_tiles(const waterline::Body& body, const DipField& dip, const Landings& landings,
+                         const std::vector<Vector2d>& film_mm, const MapOptions& options,
+                         const Context& context) {
   HP_CHECK(film_mm.size() == body.points_mm.size());
   HP_CHECK(dip.immersion_mm.size() == dip.fields.size());
   Tiler tiler(body, dip, landings, film_mm, options);

@@ -11,6 +11,7 @@ Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map, 
   Dip dip;
   dip.figures = figures_of(first, map.surface, options.profile);
   dip.figures.unsettled_mm = unsettled_mm;
+  dip.figures.tiles_limited = map.is_limited;
   dip.warnings = model.warnings;
   const auto add = [&](const Warnings& more) {
     dip.warnings.insert(dip.warnings.end(), more.begin(), more.end());

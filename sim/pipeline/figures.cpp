@@ -264,6 +264,13 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
              percent(figures.coverage)),
          "surface"});
   }
+  if (figures.tiles_limited) {
+    warnings.push_back({"tiles_limited",
+                        "the film folds or tears in more places than the tiles of the map resolve, "
+                        "so it is less exact there. Turn the object, dip less deep, or leave out "
+                        "small parts",
+                        "surface"});
+  }
   add(warnings_of_strain(figures, options));
   add(warnings_of_profile(options));
   add(warnings_of_motion(figures.steps, figures.passed_over_mm, figures.unsettled_mm));

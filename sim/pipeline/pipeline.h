@@ -84,6 +84,7 @@ struct DipFigures {
   waterline::Coarseness coarse;                  ///< where waterlines are further apart than wanted
   std::vector<waterline::SectionArea> sections;  ///< one per waterline
   std::optional<waterline::SectionsOff> sections_off;  ///< see StokesPass
+  bool tiles_limited = false;                          ///< see flow::FlowMap::is_limited
   /// Median, 95th percentile and maximum of the stretch, where theta is not clamped.
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };

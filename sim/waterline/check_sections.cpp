@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kMostOff = 0.02;
 constexpr double kStandardErrors = 3;
+/// Sections that fewer vertical lines cross are not measured by them.
+constexpr double kLeastLines = 8;
 constexpr std::size_t kMostTriangles = 12;
 
 using Samples = std::array<double, Columns::kSamples>;
@@ -145,7 +147,9 @@ std::optional<SectionsOff> check_sections(const Body& body, const std::vector<Wa
     worst = k;
   }
   off.columns_mm3 = mean(along);
-  const double most_mm3 = kMostOff * off.columns_mm3 + kStandardErrors * standard_error(along);
+  const double least_mm2 = kLeastLines * columns.cell_mm2() + kLeastLoop_mm2;
+  const double most_mm3 = kMostOff * off.columns_mm3 + kStandardErrors * standard_error(along) +
+                          least_mm2 * lines.back().immersion_mm;
   if (std::abs(off.sections_mm3 - off.columns_mm3) <= most_mm3) return std::nullopt;
   const Eigen::Vector2d offset = offset_at(motion, lines[worst].immersion_mm);
   off.immersion_mm = lines[worst].immersion_mm;

@@ -31,7 +31,8 @@ struct SectionsOff {
 /// Compares the areas of the sections, summed over the immersion, with the volume along
 /// vertical lines through the body (Columns). Both are summed by the trapezoidal rule over
 /// the waterlines, so that the distance of the waterlines does not count.
-/// @return nullopt if they differ by at most 2 % and three standard errors of the vertical lines
+/// @return nullopt if they differ by at most 2 %, three standard errors of the vertical lines, and
+///         what eight of these lines stand for
 [[nodiscard]] std::optional<SectionsOff> check_sections(const Body& body,
                                                         const std::vector<Waterline>& lines,
                                                         const Motion& motion);

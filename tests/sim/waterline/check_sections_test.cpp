@@ -67,6 +67,15 @@ TEST(CheckSections, AcceptsUnionsRingsAndCavities) {
   }
 }
 
+TEST(CheckSections, AcceptsDipsThatEndJustAfterTheContact) {
+  const Body body = testing::body_of(sample::icosphere(40, 4));
+  const auto outline = film::parse_outline("A4").value();
+  for (const double depth_mm : {0.01, 0.1, 1.0}) {
+    const auto lines = take_waterlines(body, outline, depth_mm, {}, {}, {}).value().lines;
+    EXPECT_FALSE(check_sections(body, lines, {})) << depth_mm;
+  }
+}
+
 TEST(CheckSections, FindsASectionThatLostAPart) {
   const Body body = testing::body_of(testing::together(
       {testing::box({-40, -5, 0}, {-20, 5, 30}), testing::box({20, -5, 0}, {40, 5, 30})}));
