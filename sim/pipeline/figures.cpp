@@ -53,6 +53,19 @@ DipFigures figures_of_pass(const StokesPass& pass) {
   return figures;
 }
 
+/// Returns for each triangle whether film reaches all of it: its corners are outside other parts
+/// and have film points.
+std::vector<char> triangles_with_film(const mesh::Surface& surface, const flow::SurfaceMap& map) {
+  std::vector<char> out(surface.triangles.size(), 1);
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int v = surface.triangles[t][k];
+      if (surface.is_inner(t, k) || std::isnan(map.film_mm[v].x())) out[t] = 0;
+    }
+  }
+  return out;
+}
+
 /// Areas of the surface and of parts of it, mm2.
 struct Shares {
   double total = 0, reached = 0, clamped = 0, wrinkled = 0, torn = 0;
@@ -79,10 +92,11 @@ std::string at_immersion(double immersion_mm) {
   return fmt::format("{:.2f} mm immersion", immersion_mm);
 }
 
-/// Returns the immersion and position of a trap as text, which the web pages parse.
-std::string where_of(const waterline::Trap& trap) {
-  return fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(trap.immersion_mm),
-                     trap.place_mm.x(), trap.place_mm.y());
+/// Returns the immersion and position of a trap or a level face as text, which the web pages parse.
+template <class Place>
+std::string where_of(const Place& place) {
+  return fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(place.immersion_mm),
+                     place.place_mm.x(), place.place_mm.y());
 }
 
 std::string and_others(std::ptrdiff_t others) {
@@ -107,8 +121,8 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   if (count == 0) return;
   warnings.push_back(
       {"air_trapped",
-       fmt::format("the object traps {} cm3 of air{}, which keeps the water out of the cavity; do "
-                   "not trust the map there. Turn the object or drill a vent",
+       fmt::format("the object traps {} cm3 of air{}, which keeps the water out of the cavity; the "
+                   "surface inside stays bare. Turn the object or drill a vent",
                    three_digits(most->air_mm3 / 1000), and_others(count - 1)),
        where_of(*most)});
 }
@@ -150,8 +164,18 @@ void warn_of_sections(const waterline::SectionsOff& off, Warnings& warnings) {
                    "where vertical lines through it find {} cm3: do not trust the map there. "
                    "Repair the mesh in a 3D editor",
                    three_digits(off.sections_mm3 / 1000), three_digits(off.columns_mm3 / 1000)),
-       fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(off.immersion_mm), off.place_mm.x(),
-                   off.place_mm.y())});
+       where_of(off)});
+}
+
+void warn_of_level_faces(const std::vector<waterline::LevelFace>& faces, Warnings& warnings) {
+  if (faces.empty()) return;
+  warnings.push_back(
+      {"air_trapped",
+       fmt::format("a level face of {} mm2{} meets the water all at once and catches air. Tilt the "
+                   "object by 10 to 20 degrees so that it enters the water edge first",
+                   three_digits(faces.front().area_mm2),
+                   and_others(static_cast<std::ptrdiff_t>(faces.size()) - 1)),
+       where_of(faces.front())});
 }
 
 /// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
@@ -179,6 +203,8 @@ DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
   DipFigures figures = figures_of_pass(pass);
   const std::vector<char> all(pass.surface.points.size(), 1);
   measure_part(pass.surface, pass.body, map, profile, all, figures);
+  figures.level_faces =
+      waterline::find_level_faces(pass.body, triangles_with_film(pass.surface, map));
   return figures;
 }
 
@@ -227,6 +253,7 @@ Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& opti
   warn_of_traps(figures.traps, warnings);
   warn_of_limit(figures.coarse, options.schedule.most, warnings);
   if (figures.sections_off) warn_of_sections(*figures.sections_off, warnings);
+  warn_of_level_faces(figures.level_faces, warnings);
   return warnings;
 }
 

@@ -15,6 +15,7 @@
 #include "sim/sheet/sheet_flow.h"
 #include "sim/velocity/film_mesh.h"
 #include "sim/waterline/check_sections.h"
+#include "sim/waterline/level_faces.h"
 #include "sim/waterline/motion.h"
 #include "sim/waterline/schedule.h"
 #include "sim/waterline/traps.h"
@@ -85,6 +86,8 @@ struct DipFigures {
   std::vector<waterline::SectionArea> sections;  ///< one per waterline
   std::optional<waterline::SectionsOff> sections_off;  ///< see StokesPass
   bool tiles_limited = false;                          ///< see flow::FlowMap::is_limited
+  /// Level faces that catch air, largest first; none in hollows that the film does not reach.
+  std::vector<waterline::LevelFace> level_faces;
   /// Median, 95th percentile and maximum of the stretch, where theta is not clamped.
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/base/check.h"
+#include "sim/waterline/air.h"
 #include "sim/waterline/slicer.h"
 
 namespace hydroprint::waterline {
@@ -224,6 +225,38 @@ bool has_film_inside(const Waterline& line) {
   return false;
 }
 
+/// Takes the film out of holes whose air cannot escape, and away from the loops within them.
+void keep_film_out(const std::vector<char>& is_closed, Waterline& line) {
+  for (std::size_t l = 0; l < line.section.size(); ++l) {
+    const int parent = line.section[l].parent;
+    const bool is_island = !line.section[l].is_hole && parent >= 0;
+    if (is_closed[l] != 0 || (is_island && line.bounds_film[parent] == 0)) line.bounds_film[l] = 0;
+  }
+}
+
+/// Finds the film and air that the object encloses, and takes the film out of the air.
+Status trap(const Slicer& slicer, const Body& body, const Motion& motion,
+            const ScheduleOptions& options, const Context& context, Waterlines& result) {
+  std::vector<Waterline>& lines = result.lines;
+  if (std::none_of(lines.begin(), lines.end(), has_film_inside)) return {};
+  const CrossSection& last = lines.back().section;
+  std::vector<Waterline> beyond;
+  if (std::any_of(last.begin(), last.end(), [](const Loop& loop) { return loop.is_hole; })) {
+    HP_ASSIGN_OR_RETURN(beyond,
+                        take_beyond(slicer, body, result.depth_mm, motion, options, context));
+  }
+  std::vector<const Waterline*> all;
+  for (const Waterline& line : lines) all.push_back(&line);
+  for (const Waterline& line : beyond) all.push_back(&line);
+  const auto section_at = [&](double immersion_mm) {
+    return take(slicer, motion, immersion_mm).section;
+  };
+  const auto is_closed = holes_with_trapped_air(all, section_at, 5 * options.event_gap_mm);
+  result.traps = find_traps(all, is_closed, lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) keep_film_out(is_closed[k], lines[k]);
+  return {};
+}
+
 }  // namespace
 
 Eigen::Vector2d offset_at(const Motion& motion, double immersion_mm) {
@@ -276,12 +309,7 @@ Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outlin
   for (std::size_t i = 0; i < result.lines.size(); ++i) {
     carry_film(outline, i == 0 ? rest : result.lines[i - 1], result.lines[i]);
   }
-  std::vector<Waterline> beyond;
-  if (!result.lines.empty() && has_film_inside(result.lines.back())) {
-    HP_ASSIGN_OR_RETURN(beyond,
-                        take_beyond(slicer, body, result.depth_mm, motion, options, context));
-  }
-  result.traps = find_traps(result.lines, beyond);
+  HP_RETURN_IF_ERROR(trap(slicer, body, motion, options, context, result));
   return result;
 }
 

@@ -21,7 +21,7 @@ struct Waterline {
   double immersion_mm = 0;
   CrossSection section;
   /// For each loop of the section, whether there is film on its open side. There is no film in
-  /// holes that film never entered, nor around loops within such holes.
+  /// holes that film never entered or whose air cannot escape, nor around loops within such holes.
   std::vector<char> bounds_film;
   PullIndex pulls;
 };
@@ -63,8 +63,9 @@ struct Waterlines {
 
 /// Computes the waterlines of a dip at the scheduled immersions, and more closely where contours
 /// appear, vanish, split or merge (by bisection down to `event_gap_mm` * 5), but not more than
-/// ScheduleOptions::most, plus one at the film's edge. Keeps track of which
-/// holes contain film; a hole that opens inside the cross-section contains no film.
+/// ScheduleOptions::most, plus one at the film's edge. Keeps track of which holes contain film; a
+/// hole that opens inside the cross-section contains no film, and neither does one whose air cannot
+/// escape (air.h).
 /// @param outline  the floating film; the dip ends where the waterline reaches its edge
 /// @return kFailedPrecondition if the first contact misses the film
 [[nodiscard]] Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outline,

@@ -191,12 +191,13 @@ TEST(ExactCylinder, FilmIsDrawnUpItsWall) {
   }
 }
 
-// Inside the cup, u = r / a. Film that lands at height z was at radius a exp(-z / a) at rest.
+// Inside the cup, u = r / a. Film that lands at height z was at radius a exp(-z / a) at rest. The
+// air escapes through a small vent.
 TEST(ExactCup, TrappedFilmIsSpreadOverWallAndCeiling) {
   const double a = 15;
   DipSetting setting;
   setting.film = testing::round_film(40);
-  const SolvedDip dip = testing::solve_dip(testing::cup(a, 18, 25, 5, false, 240), setting);
+  const SolvedDip dip = testing::solve_dip(testing::cup(a, 18, 25, 5, false, 240, 0.5), setting);
   for (const double z : {0.5, 4.0, 12.0, 19.0}) {
     const Vector2d outward = direction(2.6);
     const auto film = trace_back(dip.field, {a * outward, z, outward, true, true});

@@ -175,6 +175,13 @@ double round_area_mm2(double radius_mm) {
   return 32 * radius_mm * radius_mm * std::sin(std::numbers::pi / 32);
 }
 
+/// Whether there is a warning of air in a cavity, as opposed to air under a level face.
+bool warns_of_cavity(const Dip& dip) {
+  return std::any_of(dip.warnings.begin(), dip.warnings.end(), [](const Warning& w) {
+    return w.code == "air_trapped" && w.message.find("cm3 of air") != std::string::npos;
+  });
+}
+
 TEST(Warnings, ARingTrapsFilmButNoAir) {
   const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options_on("100x90"));
   EXPECT_TRUE(warns(ring, "film_trapped"));
@@ -197,14 +204,14 @@ TEST(Warnings, ARingWithAGapTrapsNothing) {
                                          }),
                           options_on("100x90"));
   EXPECT_FALSE(warns(open, "film_trapped"));
-  EXPECT_FALSE(warns(open, "air_trapped"));
+  EXPECT_FALSE(warns_of_cavity(open));
 }
 
 TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
   // The inner radius is 14 mm, and the ceiling is 20 mm above the mouth.
   const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_on("100x90"));
   EXPECT_TRUE(warns(down, "film_trapped"));
-  EXPECT_TRUE(warns(down, "air_trapped"));
+  EXPECT_TRUE(warns_of_cavity(down));
   ASSERT_EQ(down.figures.traps.size(), 1U);
   const waterline::Trap& trap = down.figures.traps[0];
   EXPECT_NEAR(trap.area_mm2, round_area_mm2(14), 1);
@@ -219,7 +226,7 @@ TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
 TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
   const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_on("100x90"));
   EXPECT_FALSE(warns(up, "film_trapped"));
-  EXPECT_FALSE(warns(up, "air_trapped"));
+  EXPECT_FALSE(warns_of_cavity(up));
   // A square cup with its mouth down and a hole in its bottom.
   const Dip vented =
       dipped(bodies::blocks({-18, -14, -3, 3, 14, 18}, {-18, -14, -3, 3, 14, 18}, {0, 20, 24},
@@ -229,14 +236,14 @@ TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
                             }),
              options_on("100x90"));
   EXPECT_TRUE(warns(vented, "film_trapped"));
-  EXPECT_FALSE(warns(vented, "air_trapped"));
+  EXPECT_FALSE(warns_of_cavity(vented));
 }
 
 TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
   DipOptions options = options_on("100x90");
   options.depth_mm = 6;
   const Dip cup = dipped(bodies::cup(14, 18, 24, 4, false, 64), options);
-  EXPECT_TRUE(warns(cup, "air_trapped"));
+  EXPECT_TRUE(warns_of_cavity(cup));
   const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options);
   EXPECT_TRUE(warns(ring, "film_trapped"));
   EXPECT_FALSE(warns(ring, "air_trapped"));
@@ -251,7 +258,7 @@ TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
                                            return k == 0 ? is_leg : k == 2 || is_wall;
                                          }),
                           options_on("100x90"));
-  EXPECT_TRUE(warns(legs, "air_trapped"));
+  EXPECT_TRUE(warns_of_cavity(legs));
   ASSERT_FALSE(legs.figures.traps.empty());
   EXPECT_NEAR(legs.figures.traps[0].immersion_mm, 10, 0.05);
   EXPECT_NEAR(legs.figures.traps[0].air_mm3, 28 * 28 * 6, 0.02 * 28 * 28 * 6);
@@ -261,7 +268,7 @@ TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
                             [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),
              options_on("100x90"));
   EXPECT_FALSE(warns(table, "film_trapped"));
-  EXPECT_FALSE(warns(table, "air_trapped"));
+  EXPECT_FALSE(warns_of_cavity(table));
 }
 
 TEST(Warnings, AClosedCavityIsNotATrap) {
@@ -271,7 +278,7 @@ TEST(Warnings, AClosedCavityIsNotATrap) {
                                bodies::inside_out(bodies::box({-8, -8, 5}, {8, 8, 15}))}),
              options_on("100x90"));
   EXPECT_FALSE(warns(hollow, "film_trapped"));
-  EXPECT_FALSE(warns(hollow, "air_trapped"));
+  EXPECT_FALSE(warns_of_cavity(hollow));
 }
 
 }  // namespace

@@ -111,23 +111,23 @@ mesh::Model cylinder(double radius_mm, double height_mm, int segments) {
 }
 
 mesh::Model cup(double inner_mm, double outer_mm, double height_mm, double bottom_mm, bool mouth_up,
-                int segments) {
+                int segments, double vent_mm) {
   if (mouth_up) {
-    return turned({{0, 0},
+    return turned({{vent_mm, 0},
                    {outer_mm, 0},
                    {outer_mm, height_mm},
                    {inner_mm, height_mm},
                    {inner_mm, bottom_mm},
-                   {0, bottom_mm}},
+                   {vent_mm, bottom_mm}},
                   segments);
   }
   const double ceiling_mm = height_mm - bottom_mm;
-  return turned({{0, ceiling_mm},
+  return turned({{vent_mm, ceiling_mm},
                  {inner_mm, ceiling_mm},
                  {inner_mm, 0},
                  {outer_mm, 0},
                  {outer_mm, height_mm},
-                 {0, height_mm}},
+                 {vent_mm, height_mm}},
                 segments);
 }
 
@@ -172,6 +172,12 @@ mesh::Model together(const std::vector<mesh::Model>& models) {
 
 mesh::Model moved(mesh::Model model, const Vector3d& by_mm) {
   for (Vector3d& v : model.vertices) v += by_mm;
+  return model;
+}
+
+mesh::Model tilted(mesh::Model model, double tilt_rad) {
+  const Eigen::AngleAxisd tilt(tilt_rad, Eigen::Vector3d::UnitX());
+  for (Eigen::Vector3d& v : model.vertices) v = tilt * v;
   return model;
 }
 

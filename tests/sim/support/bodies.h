@@ -31,8 +31,9 @@ namespace hydroprint::testing {
 [[nodiscard]] mesh::Model cylinder(double radius_mm, double height_mm, int segments);
 
 /// A cup with these inner and outer radii, height and thickness of its bottom, mouth up or down.
+/// @param vent_mm  radius of a hole in the middle of its bottom; 0: none
 [[nodiscard]] mesh::Model cup(double inner_mm, double outer_mm, double height_mm, double bottom_mm,
-                              bool mouth_up, int segments);
+                              bool mouth_up, int segments, double vent_mm = 0);
 
 /// A ring with a round cross-section that lies on the water.
 [[nodiscard]] mesh::Model torus(double ring_mm, double tube_mm, int segments, int around);
@@ -44,6 +45,9 @@ namespace hydroprint::testing {
 [[nodiscard]] mesh::Model together(const std::vector<mesh::Model>& models);
 
 [[nodiscard]] mesh::Model moved(mesh::Model model, const Eigen::Vector3d& by_mm);
+
+/// Turns a model around the x axis, which raises points with a positive y.
+[[nodiscard]] mesh::Model tilted(mesh::Model model, double tilt_rad);
 
 /// Turns every face over.
 [[nodiscard]] mesh::Model inside_out(mesh::Model model);
