@@ -14,6 +14,8 @@ namespace {
 constexpr double kLeastOpening_mm2 = 0.09;
 /// Holes of neighbouring waterlines that overlap by this share of the smaller one are the same.
 constexpr double kSameHole = 0.5;
+/// Waterlines closer than this tell apart the air on both sides of walls that are thicker.
+constexpr double kThinnestWall_mm = 0.3;
 /// Cross-sections computed in addition to the waterlines, at most.
 constexpr int kMostSections = 256;
 
@@ -35,9 +37,7 @@ struct Passage {
 
 class Air {
  public:
-  Air(const SectionAt& section_at, double event_mm) : section_at_(section_at), event_mm_(event_mm) {
-    add_node();
-  }
+  explicit Air(const SectionAt& section_at) : section_at_(section_at) { add_node(); }
 
   [[nodiscard]] Level level(double immersion_mm, const CrossSection& section) {
     Level out{immersion_mm, {}, holes_of(section), nodes_};
@@ -52,7 +52,7 @@ class Air {
   void unite_between(const Level& lower, const Level& upper) {
     const std::vector<Passage> passages = passages_between(lower, upper);
     const double gap_mm = upper.immersion_mm - lower.immersion_mm;
-    if (gap_mm > event_mm_ && sections_ < kMostSections && is_doubtful(lower, passages)) {
+    if (gap_mm > kThinnestWall_mm && sections_ < kMostSections && is_doubtful(lower, passages)) {
       ++sections_;
       const double middle_mm = lower.immersion_mm + 0.5 * gap_mm;
       const Level middle = level(middle_mm, section_at_(middle_mm));
@@ -126,7 +126,6 @@ class Air {
   }
 
   const SectionAt& section_at_;
-  double event_mm_;
   boost::disjoint_sets_with_storage<> connected_;
   int nodes_ = 0;
   int sections_ = 0;
@@ -135,11 +134,10 @@ class Air {
 }  // namespace
 
 std::vector<std::vector<char>> holes_with_trapped_air(const std::vector<const Waterline*>& lines,
-                                                      const SectionAt& section_at,
-                                                      double event_mm) {
+                                                      const SectionAt& section_at) {
   std::vector<std::vector<char>> is_closed(lines.size());
   if (lines.empty()) return is_closed;
-  Air air(section_at, event_mm);
+  Air air(section_at);
   Level upper = air.level(lines.back()->immersion_mm, {});
   for (std::size_t k = lines.size(); k-- > 0;) {
     Level lower = air.level(lines[k]->immersion_mm, lines[k]->section);

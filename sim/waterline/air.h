@@ -24,9 +24,8 @@ using SectionAt = std::function<CrossSection(double)>;
 /// @param lines       the waterlines from first contact to the top of the object; there is only
 ///                    air above the last
 /// @param section_at  computes the cross-section between two of them
-/// @param event_mm    distance between waterlines on both sides of an event
 /// @return for each waterline and each of its loops: 1 if the loop is the edge of such a hole
 [[nodiscard]] std::vector<std::vector<char>> holes_with_trapped_air(
-    const std::vector<const Waterline*>& lines, const SectionAt& section_at, double event_mm);
+    const std::vector<const Waterline*>& lines, const SectionAt& section_at);
 
 }  // namespace hydroprint::waterline

@@ -25,7 +25,7 @@ const Motion::Row* row_after(const Motion& motion, double immersion_mm) {
   return it == motion.rows.end() ? nullptr : &*it;
 }
 
-Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) {
+std::vector<Contour> contours_at(const Slicer& slicer, const Motion& motion, double immersion_mm) {
   std::vector<Contour> contours = slicer.cut(immersion_mm);
   const Eigen::Vector2d offset = offset_at(motion, immersion_mm);
   const Eigen::Vector2d drift = drift_at(motion, immersion_mm);
@@ -37,6 +37,11 @@ Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) 
       s.pull_b += drift;
     }
   }
+  return contours;
+}
+
+Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) {
+  const std::vector<Contour> contours = contours_at(slicer, motion, immersion_mm);
   return {immersion_mm, unite(contours), {}, PullIndex(contours)};
 }
 
@@ -249,9 +254,9 @@ Status trap(const Slicer& slicer, const Body& body, const Motion& motion,
   for (const Waterline& line : lines) all.push_back(&line);
   for (const Waterline& line : beyond) all.push_back(&line);
   const auto section_at = [&](double immersion_mm) {
-    return take(slicer, motion, immersion_mm).section;
+    return unite(contours_at(slicer, motion, immersion_mm));
   };
-  const auto is_closed = holes_with_trapped_air(all, section_at, 5 * options.event_gap_mm);
+  const auto is_closed = holes_with_trapped_air(all, section_at);
   result.traps = find_traps(all, is_closed, lines.size());
   for (std::size_t k = 0; k < lines.size(); ++k) keep_film_out(is_closed[k], lines[k]);
   return {};
