@@ -254,9 +254,11 @@ Status trap(const Slicer& slicer, const Body& body, const Motion& motion,
   for (const Waterline& line : lines) all.push_back(&line);
   for (const Waterline& line : beyond) all.push_back(&line);
   const auto section_at = [&](double immersion_mm) {
+    if (context.is_cancelled()) return CrossSection{};
     return unite(contours_at(slicer, motion, immersion_mm));
   };
   const auto is_closed = holes_with_trapped_air(all, section_at);
+  HP_RETURN_IF_ERROR(check_cancelled(context));
   result.traps = find_traps(all, is_closed, lines.size());
   for (std::size_t k = 0; k < lines.size(); ++k) keep_film_out(is_closed[k], lines[k]);
   return {};
