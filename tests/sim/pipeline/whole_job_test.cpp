@@ -135,9 +135,11 @@ std::string name_of(const ::testing::TestParamInfo<Body>& body) { return body.pa
 // tests/run simulates these three, tests/campaign the others.
 INSTANTIATE_TEST_SUITE_P(
     Few, WholeJobOf,
-    ::testing::Values(Body{"board", {}, 1, 0, 0.4},
-                      Body{"spot_quads", kModels / "spot/spot_quadrangulated.obj", 25, 0, 0.97},
-                      Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4}),
+    ::testing::Values(
+        Body{"board", {}, 1, 0, 0.4},
+        Body{"spot_quads", kModels / "spot/spot_quadrangulated.obj", 25, 0, 0.97},
+        // Air is trapped under its foot. Points at the edge of that lie beside white film.
+        Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4, 0.95}),
     name_of);
 INSTANTIATE_TEST_SUITE_P(Samples, WholeJobOf,
                          ::testing::Values(Body{"globe", {}, 1, 0, 0.99},
