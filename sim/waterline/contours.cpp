@@ -1,11 +1,22 @@
 #include "sim/waterline/contours.h"
 
 #include <algorithm>
+#include <boost/geometry.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hydroprint::waterline {
 namespace {
+
+namespace bg = boost::geometry;
+using Entry = std::pair<bg::model::d2::point_xy<double>, int>;  ///< an end of a segment
+using Tree = bg::index::rtree<Entry, bg::index::rstar<16>>;
+
+constexpr double kUnlimited_mm = std::numeric_limits<double>::infinity();
+/// Open ends are closed within 5 mm, nearest ends first, and only then over any distance.
+constexpr double kRadii_mm[] = {0, 0.01, 0.1, 1, 5, kUnlimited_mm};
 
 // A segment's start is encoded as 2 * segment, its end as 2 * segment + 1.
 constexpr int kNone = -1;
@@ -64,30 +75,6 @@ Segment reversed(const Segment& s) {
   return {s.b_mm, s.a_mm, turned(s.pull_b), turned(s.pull_a)};
 }
 
-/// Follows the chain from `end` until it closes or ends; marks its segments as seen.
-Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link, int end,
-               std::vector<char>& seen) {
-  std::vector<int> entries;
-  double forward_mm = 0;
-  for (int at = end; at != kNone && !seen[segment_of(at)]; at = link[opposite(at)]) {
-    seen[segment_of(at)] = 1;
-    entries.push_back(at);
-    const Segment& s = cuts[segment_of(at)].segment;
-    forward_mm += (s.b_mm - s.a_mm).norm() * (is_start(at) ? 1 : -1);
-  }
-  if (forward_mm < 0) {  // most of its length runs the other way
-    std::reverse(entries.begin(), entries.end());
-    for (int& entry : entries) entry = opposite(entry);
-  }
-  Contour contour;
-  contour.reserve(entries.size());
-  for (const int entry : entries) {
-    const Segment& s = cuts[segment_of(entry)].segment;
-    contour.push_back(is_start(entry) ? s : reversed(s));
-  }
-  return contour;
-}
-
 /// Appends a straight line to `target`, in pieces of at most 1 mm. The pull is interpolated
 /// linearly.
 void bridge(Contour& contour, const Segment& target) {
@@ -108,46 +95,84 @@ void bridge(Contour& contour, const Segment& target) {
   }
 }
 
-/// Joins open chains: each end to the nearest remaining start, which may be its own.
-void close_up(std::vector<Contour> open, std::vector<Contour>& closed) {
-  while (!open.empty()) {
-    Contour contour = std::move(open.back());
-    open.pop_back();
-    while (true) {
-      const Eigen::Vector2d end = contour.back().b_mm;
-      double best = (contour.front().a_mm - end).squaredNorm();
-      auto next = open.end();
-      for (auto it = open.begin(); it != open.end(); ++it) {
-        const double distance = (it->front().a_mm - end).squaredNorm();
-        if (distance < best) {
-          best = distance;
-          next = it;
-        }
-      }
-      if (next == open.end()) break;
-      bridge(contour, next->front());
-      contour.insert(contour.end(), next->begin(), next->end());
-      open.erase(next);
-    }
-    bridge(contour, contour.front());
-    closed.push_back(std::move(contour));
+/// Follows the links from `end` around their cycle; marks its segments as seen. Where linked ends
+/// are apart, a straight line closes the gap.
+Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link, int end,
+               std::vector<char>& seen) {
+  std::vector<int> entries;
+  double forward_mm = 0;
+  for (int at = end; !seen[segment_of(at)]; at = link[opposite(at)]) {
+    seen[segment_of(at)] = 1;
+    entries.push_back(at);
+    const Segment& s = cuts[segment_of(at)].segment;
+    forward_mm += (s.b_mm - s.a_mm).norm() * (is_start(at) ? 1 : -1);
+  }
+  if (forward_mm < 0) {  // most of its length runs the other way
+    std::reverse(entries.begin(), entries.end());
+    for (int& entry : entries) entry = opposite(entry);
+  }
+  Contour contour;
+  contour.reserve(entries.size());
+  for (const int entry : entries) {
+    const Segment& s = cuts[segment_of(entry)].segment;
+    const Segment turned = is_start(entry) ? s : reversed(s);
+    if (!contour.empty()) bridge(contour, turned);
+    contour.push_back(turned);
+  }
+  bridge(contour, contour.front());
+  return contour;
+}
+
+/// Links the ends that have no link to the nearest other one within the radius. The two ends of one
+/// segment are only linked if the radius is unlimited.
+/// @param with_direction  links only ends of segments with starts
+void link_near(const std::vector<CutSegment>& cuts, double radius_mm, bool with_direction,
+               std::vector<int>& link) {
+  const auto entry = [&](int end) -> Entry {
+    const Segment& s = cuts[segment_of(end)].segment;
+    const Eigen::Vector2d& p = is_start(end) ? s.a_mm : s.b_mm;
+    return {{p.x(), p.y()}, end};
+  };
+  std::vector<Entry> sources, targets;
+  for (int end = 0; end < static_cast<int>(link.size()); ++end) {
+    if (link[end] != kNone) continue;
+    if (!with_direction || !is_start(end)) sources.push_back(entry(end));
+    if (!with_direction || is_start(end)) targets.push_back(entry(end));
+  }
+  Tree tree(targets);
+  for (const Entry& source : sources) {
+    const auto& [place, end] = source;
+    if (link[end] != kNone) continue;
+    if (!with_direction) tree.remove(source);
+    const auto is_allowed = [&, end = end](const Entry& target) {
+      return target.second != opposite(end) || radius_mm == kUnlimited_mm;
+    };
+    const auto nearest =
+        tree.qbegin(bg::index::nearest(place, 1) && bg::index::satisfies(is_allowed));
+    if (nearest == tree.qend() || bg::distance(place, nearest->first) > radius_mm) continue;
+    const Entry target = *nearest;
+    link[end] = target.second;
+    link[target.second] = end;
+    tree.remove(target);
   }
 }
 
 }  // namespace
 
 std::vector<Contour> join(const std::vector<CutSegment>& cuts) {
-  const std::vector<int> link = link_ends(cuts);
+  std::vector<int> link = link_ends(cuts);
+  for (const double radius_mm : kRadii_mm) {
+    if (std::find(link.begin(), link.end(), kNone) == link.end()) break;
+    for (const bool with_direction : {true, false}) {
+      link_near(cuts, radius_mm, with_direction, link);
+    }
+  }
   std::vector<char> seen(cuts.size(), 0);
-  std::vector<Contour> open, closed;
-  for (int end = 0; end < static_cast<int>(link.size()); ++end) {
-    if (link[end] == kNone && !seen[segment_of(end)]) open.push_back(follow(cuts, link, end, seen));
-  }
+  std::vector<Contour> contours;
   for (int s = 0; s < static_cast<int>(cuts.size()); ++s) {
-    if (!seen[s]) closed.push_back(follow(cuts, link, 2 * s, seen));
+    if (!seen[s]) contours.push_back(follow(cuts, link, 2 * s, seen));
   }
-  close_up(std::move(open), closed);
-  return closed;
+  return contours;
 }
 
 }  // namespace hydroprint::waterline

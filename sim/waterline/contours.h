@@ -15,7 +15,7 @@ struct CutSegment {
 
 /// Joins segments that share a mesh edge into closed curves. Segments whose direction is opposite
 /// to the rest of their curve (faces that are inside out) are reversed together with their pull.
-/// Open curves are closed by straight lines from each end to the nearest start.
+/// Open ends are closed by straight lines to equal or near ends, as README.md states.
 [[nodiscard]] std::vector<Contour> join(const std::vector<CutSegment>& cuts);
 
 }  // namespace hydroprint::waterline

@@ -1,61 +1,96 @@
 #include "sim/waterline/cross_section.h"
 
+#include <algorithm>
 #include <cmath>
-#include <polyclipping/clipper.hpp>
+#include <optional>
+#include <utility>
+
+#include "sim/overlay/disjoint_curves.h"
+#include "sim/overlay/slits.h"
 
 namespace hydroprint::waterline {
 namespace {
 
-namespace clip = ClipperLib;
-
-// Clipper uses integers. With units of 1e-6 mm, a vat of one metre is within its fast 32-bit range.
-constexpr double kUnits_per_mm = 1e6;
 constexpr double kSlit_mm = 0.3;
 
-clip::IntPoint to_units(const Eigen::Vector2d& p) {
-  return {std::llround(p.x() * kUnits_per_mm), std::llround(p.y() * kUnits_per_mm)};
-}
+using Polygon = std::vector<Eigen::Vector2d>;
 
-clip::Path to_path(const std::vector<Eigen::Vector2d>& polygon) {
-  clip::Path path;
-  path.reserve(polygon.size());
-  for (const Eigen::Vector2d& p : polygon) path.push_back(to_units(p));
-  return path;
-}
-
-std::vector<Eigen::Vector2d> from_path(const clip::Path& path) {
-  std::vector<Eigen::Vector2d> polygon;
-  polygon.reserve(path.size());
-  for (const clip::IntPoint& p : path) {
-    polygon.emplace_back(static_cast<double>(p.X) / kUnits_per_mm,
-                         static_cast<double>(p.Y) / kUnits_per_mm);
-  }
-  return polygon;
-}
-
-void collect(const clip::PolyNode& node, int parent, CrossSection& section) {
-  for (const clip::PolyNode* child : node.Childs) {
-    Loop loop{from_path(child->Contour), child->IsHole(), parent};
-    if (std::abs(signed_area(loop.points_mm)) < kLeastLoop_mm2) continue;
-    section.push_back(std::move(loop));
-    collect(*child, static_cast<int>(section.size()) - 1, section);
+void add_curve(const Polygon& polygon, int group, std::vector<overlay::GridLine>& lines) {
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    overlay::add_line(lines, overlay::to_grid(polygon[j]), overlay::to_grid(polygon[i]), group);
   }
 }
 
-/// Closes gaps narrower than kSlit_mm between curves by widening the solid and narrowing it again.
-/// This joins parts that touch except for rounding errors; film does not fit between them.
-void close_slits(clip::PolyTree& tree) {
-  clip::Paths paths;
-  clip::ClosedPathsFromPolyTree(tree, paths);
-  for (const double by_mm : {0.5 * kSlit_mm, -0.5 * kSlit_mm}) {
-    clip::ClipperOffset offset;
-    offset.AddPaths(paths, clip::jtMiter, clip::etClosedPolygon);
-    if (by_mm > 0) {
-      offset.Execute(paths, by_mm * kUnits_per_mm);
-    } else {
-      offset.Execute(tree, by_mm * kUnits_per_mm);
+Eigen::AlignedBox2d box_of(const Polygon& polygon) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  return box;
+}
+
+Eigen::AlignedBox2d box_of(const std::vector<Polygon>& polygons) {
+  Eigen::AlignedBox2d box;
+  for (const Polygon& polygon : polygons) box.extend(box_of(polygon));
+  return box;
+}
+
+/// Returns the part of the polygon with sign * p[axis] <= sign * limit (Sutherland and Hodgman,
+/// 1974). The parts are joined along the limit, which leaves the even-odd rule as it is.
+Polygon clipped(const Polygon& polygon, int axis, double sign, double limit) {
+  Polygon kept;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d& p = polygon[j];
+    const Eigen::Vector2d& q = polygon[i];
+    const double before = sign * (limit - p[axis]), after = sign * (limit - q[axis]);
+    if ((before < 0) != (after < 0)) {
+      kept.emplace_back(p + (q - p) * (before / (before - after)));
+      kept.back()[axis] = limit;
     }
+    if (after >= 0) kept.push_back(q);
   }
+  return kept;
+}
+
+/// Adds the parts of the polygons in the box.
+/// @return whether there are any
+bool add_parts(const std::vector<Polygon>& polygons, const Eigen::AlignedBox2d& box, int group,
+               std::vector<overlay::GridLine>& lines) {
+  const std::size_t before = lines.size();
+  for (const Polygon& polygon : polygons) {
+    const Eigen::AlignedBox2d around = box_of(polygon);
+    if (!box.intersects(around)) continue;
+    if (box.contains(around)) {
+      add_curve(polygon, group, lines);
+      continue;
+    }
+    Polygon part = polygon;
+    for (const int axis : {0, 1}) {
+      part = clipped(part, axis, 1, box.max()[axis]);
+      part = clipped(part, axis, -1, box.min()[axis]);
+    }
+    add_curve(part, group, lines);
+  }
+  return lines.size() > before;
+}
+
+CrossSection section_of(const overlay::Region& region) {
+  const std::vector<char> is_slit = overlay::lies_in_slit(region, kSlit_mm);
+  CrossSection section;
+  std::vector<int> index(region.outlines.size(), -1);
+  for (std::size_t o = 0; o < region.outlines.size(); ++o) {
+    const overlay::Outline& outline = region.outlines[o];
+    const bool is_root = outline.parent < 0;
+    if (is_slit[o] != 0 || std::abs(outline.area_mm2) < kLeastLoop_mm2) continue;
+    if (!is_root && index[outline.parent] < 0) continue;
+    index[o] = static_cast<int>(section.size());
+    Loop loop;
+    for (const int point : outline.points) {
+      loop.points_mm.push_back(overlay::to_mm(region.overlay.points[point]));
+    }
+    loop.is_hole = outline.area_mm2 < 0;
+    loop.parent = is_root ? -1 : index[outline.parent];
+    section.push_back(std::move(loop));
+  }
+  return section;
 }
 
 }  // namespace
@@ -69,19 +104,18 @@ double signed_area(const std::vector<Eigen::Vector2d>& polygon) {
 }
 
 CrossSection unite(const std::vector<Contour>& contours) {
-  clip::Clipper clipper(clip::ioStrictlySimple | clip::ioPreserveCollinear);
+  std::vector<overlay::GridLine> lines;
   for (const Contour& contour : contours) {
-    clip::Path path;
-    path.reserve(contour.size());
-    for (const Segment& s : contour) path.push_back(to_units(s.a_mm));
-    clipper.AddPath(path, clip::ptSubject, true);
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Segment& next = contour[(i + 1) % contour.size()];
+      overlay::add_line(lines, overlay::to_grid(contour[i].a_mm), overlay::to_grid(next.a_mm), 0);
+    }
   }
-  clip::PolyTree tree;
-  clipper.Execute(clip::ctUnion, tree, clip::pftNonZero, clip::pftNonZero);
-  if (tree.Total() > 1) close_slits(tree);
-  CrossSection section;
-  collect(tree, -1, section);
-  return section;
+  lines = overlay::split_at_meetings(std::move(lines));
+  std::optional<overlay::Region> disjoint = overlay::region_in_disjoint_curves(lines);
+  overlay::Region region = disjoint ? std::move(*disjoint) : overlay::solid_region(lines);
+  if (region.outlines.size() > 1) region = overlay::close_slits(std::move(region), kSlit_mm);
+  return section_of(region);
 }
 
 bool is_inside(const CrossSection& section, const Eigen::Vector2d& p) {
@@ -102,14 +136,17 @@ bool is_inside(const CrossSection& section, const Eigen::Vector2d& p) {
 
 double common_area(const std::vector<std::vector<Eigen::Vector2d>>& a,
                    const std::vector<std::vector<Eigen::Vector2d>>& b) {
-  clip::Clipper clipper;
-  for (const auto& polygon : a) clipper.AddPath(to_path(polygon), clip::ptSubject, true);
-  for (const auto& polygon : b) clipper.AddPath(to_path(polygon), clip::ptClip, true);
-  clip::Paths paths;
-  clipper.Execute(clip::ctIntersection, paths, clip::pftEvenOdd, clip::pftEvenOdd);
+  const Eigen::AlignedBox2d common = box_of(a).intersection(box_of(b));
+  if (common.isEmpty()) return 0;
+  std::vector<overlay::GridLine> lines;
+  if (!add_parts(a, common, 0, lines) || !add_parts(b, common, 1, lines)) return 0;
+  const overlay::Overlay united =
+      overlay::triangulate(overlay::split_at_meetings(std::move(lines)));
   double area = 0;
-  for (const clip::Path& path : paths) area += clip::Area(path);
-  return area / (kUnits_per_mm * kUnits_per_mm);
+  for (const overlay::Overlay::Triangle& t : united.triangles) {
+    if (t.windings[0] % 2 != 0 && t.windings[1] % 2 != 0) area += overlay::area_mm2(united, t);
+  }
+  return area;
 }
 
 }  // namespace hydroprint::waterline

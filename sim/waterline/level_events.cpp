@@ -14,29 +14,29 @@ constexpr double kLeastRim_mm = 5;
 constexpr double kSameLevel_mm = 1e-3;
 
 /// A level, and the area or length that lies there.
-struct Level {
+struct LevelSize {
   double level_mm = 0;
   double size = 0;
 };
 
 /// Unites levels within kSameLevel_mm, and returns those with at least `least`, largest first.
-std::vector<Level> gather(std::vector<Level> parts, double least) {
-  std::ranges::sort(parts, {}, &Level::level_mm);
-  std::vector<Level> levels;
+std::vector<LevelSize> gather(std::vector<LevelSize> parts, double least) {
+  std::ranges::sort(parts, {}, &LevelSize::level_mm);
+  std::vector<LevelSize> levels;
   for (std::size_t i = 0; i < parts.size();) {
-    Level level{parts[i].level_mm, 0};
+    LevelSize level{parts[i].level_mm, 0};
     for (; i < parts.size() && parts[i].level_mm - level.level_mm < kSameLevel_mm; ++i) {
       level.size += parts[i].size;
     }
     if (level.size >= least) levels.push_back(level);
   }
-  std::ranges::stable_sort(levels, std::ranges::greater{}, &Level::size);
+  std::ranges::stable_sort(levels, std::ranges::greater{}, &LevelSize::size);
   return levels;
 }
 
 /// Returns the levels of level faces.
-std::vector<Level> shelves(const Body& body, double shelf_slope_rad) {
-  std::vector<Level> faces;
+std::vector<LevelSize> shelves(const Body& body, double shelf_slope_rad) {
+  std::vector<LevelSize> faces;
   for (const Eigen::Vector3i& t : body.triangles) {
     const Eigen::Vector3d& a = body.points_mm[t[0]];
     const Eigen::Vector3d& b = body.points_mm[t[1]];
@@ -50,13 +50,13 @@ std::vector<Level> shelves(const Body& body, double shelf_slope_rad) {
 }
 
 /// Returns the levels of edges that are creases.
-std::vector<Level> rims(const Body& body) {
+std::vector<LevelSize> rims(const Body& body) {
   struct Side {
     Eigen::Vector3d normal;
     bool found = false;
   };
   std::unordered_map<std::uint64_t, Side> sides;
-  std::vector<Level> creases;
+  std::vector<LevelSize> creases;
   for (std::size_t t = 0; t < body.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const int a = body.triangles[t][i];
@@ -81,13 +81,13 @@ std::vector<Level> rims(const Body& body) {
 
 std::vector<LevelEvent> level_events(const Body& body, double shelf_slope_rad) {
   std::vector<LevelEvent> events;
-  for (const Level& shelf : shelves(body, shelf_slope_rad)) {
+  for (const LevelSize& shelf : shelves(body, shelf_slope_rad)) {
     events.push_back({shelf.level_mm, true});
   }
   std::vector<double> faces;
   for (const LevelEvent& event : events) faces.push_back(event.level_mm);
   std::ranges::sort(faces);
-  for (const Level& rim : rims(body)) {
+  for (const LevelSize& rim : rims(body)) {
     const auto next = std::ranges::lower_bound(faces, rim.level_mm - kSameLevel_mm);
     const bool is_of_face = next != faces.end() && *next < rim.level_mm + kSameLevel_mm;
     if (!is_of_face) events.push_back({rim.level_mm, false});
