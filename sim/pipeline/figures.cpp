@@ -161,8 +161,8 @@ void warn_of_sections(const waterline::SectionsOff& off, Warnings& warnings) {
   warnings.push_back(
       {"sections_uncertain",
        fmt::format("the mesh is open or its parts share edges, and its sections enclose {} cm3 "
-                   "where vertical lines through it find {} cm3: do not trust the map there. "
-                   "Repair the mesh in a 3D editor",
+                   "where vertical lines through it find {} cm3: check the result near its "
+                   "openings, or close them in a 3D editor",
                    three_digits(off.sections_mm3 / 1000), three_digits(off.columns_mm3 / 1000)),
        where_of(off)});
 }

@@ -26,9 +26,6 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   return outline;
 }
 
-/// Largest difference between sections and volume for meshes that are not closed.
-constexpr double kMostOffIfOpen = 0.2;
-
 /// Shorter dips, as shares of the body's height, may end before the first section of its tip.
 constexpr double kShortDip = 0.05;
 
@@ -87,13 +84,8 @@ Error refusal_of(const waterline::SectionsOff& off, const StokesPass& pass,
       "SECTIONS_OFF"};
 }
 
-/// Returns how far the sections are off, as a share of the larger of the two volumes.
-double share_off(const waterline::SectionsOff& off) {
-  return std::abs(off.sections_mm3 - off.columns_mm3) / std::max(off.sections_mm3, off.columns_mm3);
-}
-
-/// Compares the sections with the body's volume. Closed meshes must agree. Open ones must agree
-/// roughly: otherwise their openings leave open what is inside.
+/// Compares the sections with the body's volume. Closed meshes must agree. Lines may pass through
+/// the openings of open ones, which is only noted.
 Status check(const waterline::Waterlines& waterlines, const waterline::Motion& motion,
              StokesPass& pass) {
   pass.sections = waterline::section_areas(waterlines.lines);
@@ -108,8 +100,7 @@ Status check(const waterline::Waterlines& waterlines, const waterline::Motion& m
                     waterline::kLeastLoop_mm2));
   }
   pass.sections_off = waterline::check_sections(pass.body, waterlines.lines, motion);
-  if (!pass.sections_off) return {};
-  if (!pass.surface.closed && share_off(*pass.sections_off) < kMostOffIfOpen) return {};
+  if (!pass.sections_off || !pass.surface.closed) return {};
   return tl::unexpected(refusal_of(*pass.sections_off, pass, motion));
 }
 
