@@ -7,7 +7,7 @@
 
 namespace hydroprint::waterline {
 
-/// Resolution of the dip.
+/// Resolution of the dip, and what becomes of enclosed air.
 struct ScheduleOptions {
   /// Surface wetted between two waterlines, as a width: swept area divided by waterline length. A
   /// sphere is thus divided evenly in theta. This value is for bodies with at least the surface of
@@ -28,6 +28,8 @@ struct ScheduleOptions {
   double edge_gap_mm = 0.05;
   /// Largest number of waterlines of a dip.
   std::size_t most = 400;
+  /// True as if the object had vents that the mesh does not show: air keeps no film out of hollows.
+  bool air_escapes = false;
 };
 
 /// Immersions at which to compute waterlines.

@@ -260,6 +260,7 @@ Status trap(const Slicer& slicer, const Body& body, const Motion& motion,
   const auto is_closed = holes_with_trapped_air(all, section_at);
   HP_RETURN_IF_ERROR(check_cancelled(context));
   result.traps = find_traps(all, is_closed, lines.size());
+  if (options.air_escapes) return {};
   for (std::size_t k = 0; k < lines.size(); ++k) keep_film_out(is_closed[k], lines[k]);
   return {};
 }
