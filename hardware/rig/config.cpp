@@ -9,7 +9,7 @@
 namespace hydroprint::rig {
 namespace {
 
-constexpr std::array<RigConfigKey, 10> kKeys = {{
+constexpr std::array<RigConfigKey, 11> kKeys = {{
     {"end_low_mm", &RigConfig::end_low_mm, -5000, 5000},
     {"end_high_mm", &RigConfig::end_high_mm, -5000, 5000},
     {"keep_out_mm", &RigConfig::keep_out_mm, 0, 1000},
@@ -18,6 +18,7 @@ constexpr std::array<RigConfigKey, 10> kKeys = {{
     {"poll_period_s", &RigConfig::poll_period_s, 0.002, 0.02},
     {"following_error_mm", &RigConfig::following_error_mm, 0.01, 10},
     {"following_error_s", &RigConfig::following_error_s, 0.02, 2},
+    {"standstill_mm", &RigConfig::standstill_mm, 0.05, 1},
     {"arrival_mm", &RigConfig::arrival_mm, 0.001, 1},
     {"home_timeout_s", &RigConfig::home_timeout_s, 1, 600},
 }};

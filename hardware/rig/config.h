@@ -20,6 +20,7 @@ struct RigConfig {
   double poll_period_s = 0.02;
   double following_error_mm = 0.5;  ///< largest deviation from the expected position at speed 0
   double following_error_s = 0.25;  ///< additional deviation, per mm/s of speed
+  double standstill_mm = 0.5;       ///< largest deviation of an axis at rest
   double arrival_mm = 0.1;          ///< largest distance from the target at the end of a move
   double home_timeout_s = 120;
 

@@ -29,6 +29,11 @@ constexpr double kStopMargin_s = 0.5;
 // Added to the computed stopping time before an axis that cannot be polled counts as at rest.
 constexpr double kStandstillMargin_s = 0.5;
 
+/// Whether the drive may have obeyed a command despite this error: its reply was lost or damaged.
+bool may_have_arrived(const Error& error) {
+  return error.metadata.contains("timeout") || error.reason == "REPLY_INVALID";
+}
+
 double seconds_since(TimePoint time) {
   return std::chrono::duration<double>(Clock::now() - time).count();
 }
@@ -42,6 +47,7 @@ ControlLoop::ControlLoop(const RigConfig& config, drive::Drive& drive, StopChann
       stop_channel_(stop_channel),
       shared_(shared),
       link_monitor_(drive),
+      observer_(config_, drive.profile()),
       log_(shared.status) {}
 
 /// Locks the memory that each tick uses: this object, the drive, the shared state and the samples.
@@ -133,7 +139,7 @@ void ControlLoop::look() {
   if (seen.event) apply(*seen.event);
   if (seen.axis) {
     follow(*axis_);
-    record(*axis_);
+    if (axis_) record(*axis_);  // else the line has fallen silent
     return;
   }
   const double unseen_s = seconds_since(link_monitor_.clean());
@@ -147,17 +153,42 @@ void ControlLoop::look() {
 /// sends nothing until the drive's watchdog has acted: any message would keep the drive moving.
 void ControlLoop::lose() {
   axis_.reset();
+  observer_.forget();
   apply({Kind::kLost});
   if (condition_.state != State::kStopping) return;
   const double patience_s = std::chrono::duration<double>(StopChannel::kPatience).count();
   link_monitor_.keep_silent(patience_s + link_monitor_.watchdog_s() + kWatchdogMargin_s);
 }
 
+/// Returns whether the samples show a fault.
+bool ControlLoop::observe(const drive::DriveState& axis) {
+  if (!stop_acknowledged_ && stop_channel_.acknowledged() > stopping_since_) {
+    stop_acknowledged_ = stop_channel_.acknowledged();
+  }
+  const auto* supervisor = supervisor_ ? &*supervisor_ : nullptr;
+  const auto cause = observer_.look(condition_, supervisor, axis, stop_acknowledged_);
+  if (!cause) return false;
+  if (*cause == Cause::kStopNotObeyed) {
+    fall_silent(*cause);
+  } else {
+    apply({.kind = Kind::kFault, .cause = *cause});
+  }
+  return true;
+}
+
+/// Nothing more is sent, so that the drive's watchdog stops the axis.
+void ControlLoop::fall_silent(Cause cause) {
+  apply({.kind = Kind::kFault, .cause = cause});
+  link_monitor_.lose();
+  lose();
+}
+
 void ControlLoop::follow(const drive::DriveState& axis) {
-  if (!supervisor_) return;
+  if (observe(axis) || !supervisor_ || observer_.in_doubt()) return;
   const MotionSupervisor::Advice advice = supervisor_->look(axis);
-  if (advice.next && !command_leg(*advice.next)) apply({Kind::kFollowingError});
-  if (advice.event) apply({*advice.event});
+  const bool is_sent = !advice.next || send_surely([&] { return command_leg(*advice.next); });
+  if (!is_sent) apply({.kind = Kind::kFault, .cause = Cause::kFollowingError});
+  if (advice.event) apply(*advice.event);
 }
 
 void ControlLoop::record(const drive::DriveState& axis) {
@@ -188,6 +219,7 @@ void ControlLoop::note_change(const Condition& before) {
   if (condition_.state == State::kStopping && before.state != State::kStopping) {
     still_ = 0;
     stopping_since_ = Clock::now();
+    stop_acknowledged_.reset();
   }
   if (condition_.pending != before.pending) pending_since_ = Clock::now();
   if (!in_motion(before.state) || in_motion(condition_.state)) return;
@@ -204,7 +236,9 @@ void ControlLoop::send_stop() {
   stop_sent_ = Clock::now();
   stop_channel_.stop();
   // After a lost link this call would have to wait; stop_channel_ does not.
-  if (link_monitor_.is_up()) (void)drive_.stop();
+  if (link_monitor_.is_up() && drive_.stop() && !stop_acknowledged_) {
+    stop_acknowledged_ = Clock::now();
+  }
 }
 
 /// Returns the error of the first command that the drive did not accept. Errors of stop and disable
@@ -212,9 +246,12 @@ void ControlLoop::send_stop() {
 Status ControlLoop::act(const Actions& actions) {
   if (actions.stop) send_stop();
   if (actions.disable && link_monitor_.is_up()) (void)drive_.disable();
-  if (actions.clear_alarm) HP_RETURN_IF_ERROR(drive_.reset_fault());
-  if (actions.enable) HP_RETURN_IF_ERROR(drive_.enable());
-  return {};
+  Status sent;
+  if (actions.clear_alarm) sent = drive_.reset_fault();
+  if (actions.enable) sent = drive_.enable();
+  // Polls show whether the drive has obeyed.
+  if (!sent && may_have_arrived(sent.error())) return {};
+  return sent;
 }
 
 void ControlLoop::keep_going() {
@@ -231,8 +268,7 @@ void ControlLoop::keep_going() {
   const double braking_s =
       config_.max_speed_mm_per_s / drive_.profile().stopping_deceleration_mm_per_s2;
   if (seconds_since(stopping_since_) > braking_s + kStopMargin_s) {
-    link_monitor_.lose();
-    lose();
+    fall_silent(Cause::kStopNotObeyed);
   } else if (seconds_since(stop_sent_) >= kStopAgain_s) {
     send_stop();
   }
@@ -270,19 +306,31 @@ void ControlLoop::carry_out(Order& order) {
 }
 
 Answer ControlLoop::begin(const Order& order) {
+  const TimePoint now = Clock::now();
   if (supervisor_) {  // an ongoing jog
-    supervisor_->hold_jog(order.given, order.plan.jog_mm_per_s);
+    supervisor_->hold_jog(order.given, now, order.plan.jog_mm_per_s);
   } else {
-    const TimePoint now = Clock::now();
     supervisor_.emplace(config_, drive_.profile(), order.plan, now, axis_->position_mm);
-    if (order.kind == Kind::kJog) supervisor_->hold_jog(order.given, order.plan.jog_mm_per_s);
+    if (order.kind == Kind::kJog) supervisor_->hold_jog(order.given, now, order.plan.jog_mm_per_s);
     log_.begin(order.plan.motion, now, axis_->position_mm);
   }
-  if (Status sent = command(order); !sent) {
+  if (Status sent = send_surely([&] { return command(order); }); !sent) {
     apply({Kind::kStop});  // the command may have arrived
     return tl::unexpected(after_start(std::move(sent).error()));
   }
   return log_.latest();
+}
+
+/// Sends a command that starts a motion. If its reply is lost, the drive is read: if it does not
+/// move, the command is sent once more. Repeated commands have the same target, so they do no harm.
+Status ControlLoop::send_surely(const std::function<Status()>& send) {
+  Status sent = send();
+  if (sent || !may_have_arrived(sent.error())) return sent;
+  const auto seen = link_monitor_.look();
+  if (!seen.axis) return sent;
+  apply(*seen.event);
+  if (!in_motion(condition_.state)) return sent;
+  return seen.axis->moving ? Status{} : send();
 }
 
 Status ControlLoop::command(const Order& order) {
@@ -293,9 +341,8 @@ Status ControlLoop::command(const Order& order) {
 }
 
 Status ControlLoop::command_leg(const Leg& leg) {
-  HP_RETURN_IF_ERROR(drive_.move_to(leg.target_mm, leg.speed_mm_per_s));
   supervisor_->begin_leg(Clock::now());
-  return {};
+  return drive_.move_to(leg.target_mm, leg.speed_mm_per_s);
 }
 
 /// Answers orders whose confirmation is no longer pending.

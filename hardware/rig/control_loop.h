@@ -1,9 +1,11 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "hardware/rig/axis_observer.h"
 #include "hardware/rig/command_queue.h"
 #include "hardware/rig/link_monitor.h"
 #include "hardware/rig/motion_log.h"
@@ -38,6 +40,8 @@ class ControlLoop {
   void take_stops();
   void look();
   void follow(const drive::DriveState& axis);
+  [[nodiscard]] bool observe(const drive::DriveState& axis);
+  void fall_silent(Cause cause);
   void take_orders();
   void keep_going();
   void publish();
@@ -54,6 +58,7 @@ class ControlLoop {
   void carry_out(Order& order);
   [[nodiscard]] Answer begin(const Order& order);
   [[nodiscard]] Status command(const Order& order);
+  [[nodiscard]] Status send_surely(const std::function<Status()>& send);
   [[nodiscard]] Status command_leg(const Leg& leg);
   void answer(Order& order, Answer answer);
   void answer_waiting();
@@ -67,6 +72,7 @@ class ControlLoop {
   StopChannel& stop_channel_;
   SharedState& shared_;
   LinkMonitor link_monitor_;
+  AxisObserver observer_;
   MotionLog log_;
   Condition condition_;
   std::optional<drive::DriveState> axis_;
@@ -74,7 +80,8 @@ class ControlLoop {
   std::uint64_t stops_ = 0;  // number of the stops in shared_.stops that have been processed
   int still_ = 0;            // number of consecutive polls at standstill, while STOPPING
   TimePoint jogged_, stop_sent_, stopping_since_;
-  std::vector<Order> waiting_;  // orders waiting for confirmation by the drive
+  std::optional<TimePoint> stop_acknowledged_;  // of the current STOPPING
+  std::vector<Order> waiting_;                  // orders waiting for confirmation by the drive
   /// Responses that are sent once the snapshot shows their effect.
   std::vector<std::pair<std::promise<Answer>, Answer>> answers_;
   TimePoint pending_since_;

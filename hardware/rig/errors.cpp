@@ -37,6 +37,29 @@ Words words(Cause cause) {
     case Cause::kUnexpectedMotion:
       return {"the axis moved without a command", "find out what else commands the drive",
               "RIG_FAULTED"};
+    case Cause::kOverspeed:
+      return {"the axis moved faster than commanded",
+              "compare the profile's counts_per_mm_per_s and the drive's speeds", "RIG_FAULTED"};
+    case Cause::kWrongDirection:
+      return {"the axis moved in the wrong direction",
+              "check the sign of the profile's counts_per_mm and the wiring of the motor",
+              "RIG_FAULTED"};
+    case Cause::kPositionJumped:
+      return {"the drive's position changed by more than the axis can move",
+              "find out what sets the drive's position to zero, and check the encoder's cable",
+              "RIG_FAULTED"};
+    case Cause::kFeedback:
+      return {"the drive's position and velocity disagree",
+              "check the encoder's cable and the registers of position and velocity in the profile",
+              "RIG_FAULTED"};
+    case Cause::kHomingFailed:
+      return {"homing was not seen to find the home switch, or did not end at position 0",
+              "check the home switch, its cable and the drive's settings for homing",
+              "RIG_FAULTED"};
+    case Cause::kStopNotObeyed:
+      return {
+          "the drive acknowledged a stop but did not slow down; PRESS THE STOP BUTTON ON THE RIG",
+          "check the drive before you use the rig again", "RIG_FAULTED"};
     case Cause::kConfigUnsafe:
       return {"the drive's watchdog would no longer stop the axis",
               "correct the settings of the watchdog", "DRIVE_CONFIG_UNSAFE"};

@@ -6,6 +6,7 @@
 #include "hardware/drive/drive.h"
 #include "hardware/rig/config.h"
 #include "hardware/rig/motion_profile.h"
+#include "hardware/rig/observe.h"
 #include "hardware/rig/samples.h"
 #include "hardware/rig/state.h"
 
@@ -38,15 +39,17 @@ class MotionSupervisor {
                    TimePoint start, double position_mm);
 
   struct Advice {
-    std::optional<Event::Kind> event;  ///< event for the state machine
-    std::optional<Leg> next;           ///< if set, send this move now, then call begin_leg()
+    std::optional<Event> event;  ///< event for the state machine
+    std::optional<Leg> next;     ///< if set, call begin_leg() and send this move now
   };
   /// Processes a valid sample of the drive.
   [[nodiscard]] Advice look(const drive::DriveState& drive);
-  /// Records the time at which the leg's move was sent.
+  /// Records the time at which the leg's move is sent.
   void begin_leg(TimePoint now);
-  /// Records that the jog was requested again at this time, with its speed.
-  void hold_jog(TimePoint now, double speed_mm_per_s);
+  /// Records that the jog was requested again at `asked`, and its speed, ordered `now`.
+  void hold_jog(TimePoint asked, TimePoint now, double speed_mm_per_s);
+  /// Returns what the axis is ordered to do now, for observe().
+  [[nodiscard]] AxisOrder order() const;
 
   /// Fills in the fields of a sample that depend on the motion: leg, expected position, and whether
   /// the speed should be constant.
@@ -56,6 +59,7 @@ class MotionSupervisor {
 
  private:
   [[nodiscard]] Advice look_at_home(const drive::DriveState& drive);
+  void follow_home(const drive::DriveState& drive);
   [[nodiscard]] Advice look_at_jog(const drive::DriveState& drive) const;
   [[nodiscard]] Advice look_at_leg(const drive::DriveState& drive);
   [[nodiscard]] double since_leg_s(TimePoint time) const;
@@ -65,8 +69,13 @@ class MotionSupervisor {
   Plan plan_;
   TimePoint start_;
   double start_mm_;
-  bool seen_moving_ = false;  // for homing: the axis has been seen moving
-  TimePoint held_;            // for a jog: time of the last request
+  // For homing: the axis was seen moving; the home switch or the homed bit was seen to change; the
+  // way so far, without steps that set the position to zero; the sample before.
+  bool seen_moving_ = false, seen_home_ = false;
+  double way_mm_ = 0;
+  std::optional<drive::DriveState> before_;
+  TimePoint held_;  // for a jog: time of the last request
+  AxisOrder jog_;   // for a jog: its latest speed
   std::size_t leg_ = 0;
   double from_mm_;
   std::optional<Travel> travel_;  // for a leg that has begun

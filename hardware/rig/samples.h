@@ -14,6 +14,11 @@ namespace hydroprint::rig {
 
 using TimePoint = std::chrono::steady_clock::time_point;
 
+/// Returns the time from one point to another, in s.
+[[nodiscard]] inline double seconds(TimePoint from, TimePoint to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
 /// A valid sample of the axis.
 struct Sample {
   std::uint64_t number = 0;  ///< 1, 2, ... in this process

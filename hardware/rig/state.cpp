@@ -114,6 +114,18 @@ Step assume_standstill(Condition c) {
   return stay(c);
 }
 
+/// A fault that is observed at standstill also leads to STOPPING: the axis may have begun to move.
+Step fault(const Condition& c, Cause cause) {
+  const bool watched = in_motion(c.state) || at_rest_armed(c.state) || c.state == State::kFault;
+  if (watched) return trip(c, cause, true);
+  if (c.state != State::kStopping || cause != Cause::kStopNotObeyed) return stay(c);
+  // Replaces the first cause, because a person must act now.
+  Condition next = c;
+  next.cause = cause;
+  next.homed = false;
+  return stay(next);
+}
+
 Step finish_motion(Condition c) {
   if (!in_motion(c.state)) return stay(c);
   c.homed = true;  // before homing, the only possible motion is homing
@@ -211,10 +223,8 @@ Step step(const Condition& c, const Event& event) {
       return finish_motion(c);
     case Kind::kJogOver:
       return c.motion == Motion::kJog ? stop(c) : stay(c);
-    case Kind::kOutsideLimits:
-      return in_motion(c.state) ? trip(c, Cause::kGuard, true) : stay(c);
-    case Kind::kFollowingError:
-      return in_motion(c.state) ? trip(c, Cause::kFollowingError, true) : stay(c);
+    case Kind::kFault:
+      return fault(c, event.cause);
     case Kind::kTimedOut:
       return time_out(c);
     case Kind::kStop:

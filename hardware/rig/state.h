@@ -29,8 +29,14 @@ enum class Cause : std::uint8_t {
   kDropped,           ///< the drive lost torque or home position: it was restarted
   kLimit,             ///< limit switch
   kGuard,             ///< the axis left its soft limits
-  kFollowingError,    ///< the axis is not at its commanded position
+  kFollowingError,    ///< the axis is not at its commanded position, or a jog does not move it
   kUnexpectedMotion,  ///< the axis moves without a command
+  kOverspeed,         ///< the axis moves faster than commanded
+  kWrongDirection,    ///< a jog moves the axis the wrong way
+  kPositionJumped,    ///< the position changed by more than the axis can move
+  kFeedback,          ///< position and velocity disagree
+  kHomingFailed,      ///< homing was not seen to find the home switch, or ended elsewhere
+  kStopNotObeyed,     ///< the drive acknowledged a stop, but does not slow down
   kConfigUnsafe,      ///< the drive's watchdog became unsafe while the rig was armed
   kStopButton,
 };
@@ -79,9 +85,8 @@ struct Event {
     kStandstillAssumed,  ///< lost for so long that the watchdog must have stopped the axis
     kMotionDone,         ///< the drive is at rest at the motion's target
     kJogOver,            ///< the jog was released, or has reached its limit
-    kOutsideLimits,
-    kFollowingError,
-    kTimedOut,  ///< a pending confirmation took too long
+    kFault,              ///< observed (observe.h) or found by the supervisor: `cause`
+    kTimedOut,           ///< a pending confirmation took too long
     // Commands follow. Only commands can be refused.
     kStop,  ///< never refused
     kArm,
@@ -93,8 +98,9 @@ struct Event {
     kReset,
   };
   Kind kind = Kind::kSample;
-  Bits bits = {};     ///< result of the poll, for kSeen and kSample
-  bool safe = false;  ///< only for kSeen
+  Bits bits = {};              ///< result of the poll, for kSeen and kSample
+  bool safe = false;           ///< only for kSeen
+  Cause cause = Cause::kNone;  ///< only for kFault
 };
 
 /// Actions for the control loop, in this order.

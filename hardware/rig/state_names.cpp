@@ -60,6 +60,18 @@ std::string_view name(Cause cause) {
       return "FOLLOWING_ERROR";
     case Cause::kUnexpectedMotion:
       return "UNEXPECTED_MOTION";
+    case Cause::kOverspeed:
+      return "OVERSPEED";
+    case Cause::kWrongDirection:
+      return "WRONG_DIRECTION";
+    case Cause::kPositionJumped:
+      return "POSITION_JUMPED";
+    case Cause::kFeedback:
+      return "FEEDBACK_INCONSISTENT";
+    case Cause::kHomingFailed:
+      return "HOMING_FAILED";
+    case Cause::kStopNotObeyed:
+      return "STOP_NOT_OBEYED";
     case Cause::kConfigUnsafe:
       return "DRIVE_CONFIG_UNSAFE";
     case Cause::kStopButton:

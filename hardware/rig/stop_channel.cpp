@@ -71,7 +71,9 @@ void StopChannel::run() {
     }
     // Errors are ignored: the control loop sees whether the drive stopped when it polls.
     stopping_ = true;
-    if (stop_.exchange(false)) (void)line_.stop(kPatience);
+    if (stop_.exchange(false) && line_.stop(kPatience)) {
+      acknowledged_ = std::chrono::steady_clock::now().time_since_epoch().count();
+    }
     stopping_ = false;
     if (prepare_.exchange(false)) (void)line_.connect();
   }

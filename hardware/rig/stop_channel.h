@@ -28,6 +28,10 @@ class StopChannel {
   /// Returns whether a stop is still being sent to the drive. That stop would also end a motion
   /// that is started now.
   [[nodiscard]] bool is_busy() const noexcept { return stop_ || stopping_; }
+  /// Returns when the drive last acknowledged a stop of this channel; the epoch: never.
+  [[nodiscard]] TimePoint acknowledged() const noexcept {
+    return TimePoint(TimePoint::duration(acknowledged_));
+  }
   /// Has the thread connect in advance. Returns immediately.
   void prepare() noexcept;
 
@@ -46,7 +50,7 @@ class StopChannel {
   int wake_event_;  // eventfd
   std::atomic<bool> stop_{false}, stopping_{false}, prepare_{false}, tripped_{false}, end_{false};
   std::atomic<bool> in_motion_{false};
-  std::atomic<TimePoint::rep> clean_{0};
+  std::atomic<TimePoint::rep> clean_{0}, acknowledged_{0};
   std::thread thread_;
 };
 

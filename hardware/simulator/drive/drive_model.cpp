@@ -11,6 +11,12 @@ using drive::Command;
 constexpr double kScan_s = 1e-3;
 // Speed of a carriage that is released after a stall, as a multiple of the largest speed.
 constexpr double kCatchUp = 3;
+// Homing leaves the switch by this distance, so that its state and the homed bit change for a time
+// that a master can observe, also if the carriage was at home already.
+constexpr double kClearOfSwitch_mm = 0.1;
+
+constexpr double kRunaway_mm_per_s = 25;
+constexpr double kDrift_mm_per_s = 0.15;
 
 Goal velocity_goal(const Machine& machine, double v_mm_per_s) {
   return {Goal::Kind::kVelocity, 0, v_mm_per_s, machine.acceleration_mm_per_s2,
@@ -74,6 +80,14 @@ void move_carriage(const Machine& machine, Model& model, const Inputs& inputs, d
                                 : (model.actual.x_mm - before.x_mm) / dt_s;
 }
 
+/// Moves the carriage without an order.
+void run_away(const Machine& machine, Model& model, double v_mm_per_s, double dt_s) {
+  const double x_mm =
+      std::clamp(model.actual.x_mm + v_mm_per_s * dt_s, -machine.hard_stops_beyond_mm,
+                 machine.travel_mm + machine.hard_stops_beyond_mm);
+  model.actual = model.demand = {x_mm, v_mm_per_s};
+}
+
 void look_at_switches(const Machine& machine, Model& model, const Inputs& inputs) {
   if (!model.enabled()) return;
   if (inputs.stop_button) brake(machine, model, Mode::kStopToOff);
@@ -96,18 +110,12 @@ void look_at_clocks(const Machine& machine, Model& model) {
   }
 }
 
-void set_zero(Model& model, double before_mm) {
-  // If the switch's edge, at 0, lies between the last two samples, it is used exactly.
-  model.zero_mm = before_mm <= 0 && model.actual.x_mm > 0 ? 0 : model.actual.x_mm;
-  model.homed = true;
-}
-
-void go_on_homing(const Machine& machine, Model& model, double before_mm) {
+void go_on_homing(const Machine& machine, Model& model) {
   if (model.mode == Mode::kHomeSeek && at_home_switch(model)) {
     model.mode = Mode::kHomeBackOff;
     model.goal = velocity_goal(machine, machine.back_off_speed_mm_per_s);
-  } else if (model.mode == Mode::kHomeBackOff && !at_home_switch(model)) {
-    set_zero(model, before_mm);
+  } else if (model.mode == Mode::kHomeBackOff && model.actual.x_mm >= kClearOfSwitch_mm) {
+    model.zero_mm = 0;  // the switch's edge
     model.mode = Mode::kHomeToZero;
     model.goal = position_goal(machine, model.zero_mm, machine.back_off_speed_mm_per_s);
   }
@@ -118,6 +126,7 @@ void finish(Model& model) {
       model.mode == Mode::kJog || !is_reached(model.demand, model.goal)) {
     return;
   }
+  model.homed = model.homed || model.mode == Mode::kHomeToZero;
   if (model.mode == Mode::kStopToOff) {
     model.mode = Mode::kOff;
     model.demand = {model.actual.x_mm, 0};
@@ -128,14 +137,17 @@ void finish(Model& model) {
 }
 
 void scan(const Machine& machine, Model& model, const Inputs& inputs, double dt_s) {
-  const double before_mm = model.actual.x_mm;
   const bool moved = model.actual.v_mm_per_s != 0;
   model.time_s += dt_s;
-  if (model.mode != Mode::kOff) move_carriage(machine, model, inputs, dt_s);
+  if (model.enabled() && (inputs.runaway || inputs.drifting)) {
+    run_away(machine, model, inputs.runaway ? kRunaway_mm_per_s : kDrift_mm_per_s, dt_s);
+  } else if (model.mode != Mode::kOff) {
+    move_carriage(machine, model, inputs, dt_s);
+  }
   if (!inputs.frozen) model.frozen_mm = model.actual.x_mm;
   look_at_switches(machine, model, inputs);
   look_at_clocks(machine, model);
-  go_on_homing(machine, model, before_mm);
+  go_on_homing(machine, model);
   if (model.enabled() &&
       std::abs(model.demand.x_mm - model.actual.x_mm) > machine.largest_following_error_mm) {
     raise(machine, model, kFollowingError);
@@ -237,7 +249,7 @@ std::optional<Model> execute(const Machine& machine, Model model, const Inputs& 
       model.jogged_s = model.time_s;
       return start(machine, model, inputs, Mode::kJog, goal_of(machine, model, order));
     case Command::kStop:
-      if (model.moving()) brake(machine, model, Mode::kStopToHold);
+      if (model.moving() && !inputs.deaf) brake(machine, model, Mode::kStopToHold);
       return model;
     case Command::kResetFault:
       if (inputs.stop_button || model.mode == Mode::kStopToOff) return std::nullopt;

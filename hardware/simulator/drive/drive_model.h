@@ -37,6 +37,10 @@ struct Inputs {
   bool negative_end = false;
   bool stalled = false;  ///< the carriage is blocked
   bool frozen = false;   ///< the encoder value does not change
+  bool deaf = false;     ///< stops are acknowledged, but not obeyed
+  // The drive itself moves the carriage, and reports it, until its torque is taken off.
+  bool runaway = false;   ///< at 25 mm/s
+  bool drifting = false;  ///< at 0.15 mm/s
 };
 
 /// Alarm codes of the virtual drive; hardware/profiles/virtual.toml describes the remedies.

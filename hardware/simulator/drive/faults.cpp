@@ -28,12 +28,15 @@ constexpr std::array<std::pair<std::string_view, ReplyFaultKind>, 8> kFaults = {
     {"wrong-length", ReplyFaultKind::kWrongLength},
     {"busy", ReplyFaultKind::kBusy},
 }};
-constexpr std::array<std::pair<std::string_view, Action::Input>, 5> kInputs = {{
+constexpr std::array<std::pair<std::string_view, Action::Input>, 8> kInputs = {{
     {"stop", Action::Input::kStopButton},
     {"positive-end", Action::Input::kPositiveEnd},
     {"negative-end", Action::Input::kNegativeEnd},
     {"stall", Action::Input::kStall},
     {"freeze", Action::Input::kFreeze},
+    {"deaf", Action::Input::kDeaf},
+    {"runaway", Action::Input::kRunaway},
+    {"drift", Action::Input::kDrift},
 }};
 constexpr std::array<std::pair<std::string_view, Action::Kind>, 8> kPlain = {{
     {"clear", Action::Kind::kClear},
@@ -98,8 +101,11 @@ tl::unexpected<Error> refuse(std::string_view line) {
               fmt::format("\"{:.80}\" is not a known action. Use: {}", line, action_help()));
 }
 
-/// Parses COUNT at words[at], if present. Returns false if it is malformed or not the last word.
-bool take_count(const Words& words, std::size_t at, ReplyFault& reply_fault) {
+/// Parses COUNT and "writes" at words[at], if present. Returns false if they are malformed, or not
+/// the last words.
+bool take_count(Words words, std::size_t at, ReplyFault& reply_fault) {
+  reply_fault.writes_only = words.size() > at && words.back() == "writes";
+  if (reply_fault.writes_only) words.pop_back();
   if (words.size() == at) return true;
   if (words.size() > at + 1) return false;
   const auto number = words[at] == "all" ? std::optional<std::int64_t>(-1) : read_number(words[at]);
@@ -226,11 +232,12 @@ std::optional<Action> parse_words(Words words) {
 }  // namespace
 
 std::string_view action_help() {
-  return "[fault] late DURATION [COUNT|all], [fault] "
+  return "[fault] late DURATION [COUNT|all] [writes], [fault] "
          "drop|truncate|wrong-id|wrong-function|wrong-crc|"
-         "wrong-length|busy [COUNT|all], silent, press|release "
+         "wrong-length|busy [COUNT|all] [writes], silent, press|release "
          "stop|positive-end|negative-end|stall|"
-         "freeze, stall, freeze, unplug, replug, reboot [DURATION], "
+         "freeze|deaf|runaway|drift, stall, freeze, deaf, runaway, drift, unplug, replug, reboot "
+         "[DURATION], "
          "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well|pushed X_MM "
          "Y_MM, hang "
          "POSE.json [MESH], show POSE.json MESH|nothing, clear, state, help "

@@ -29,7 +29,8 @@ enum class ReplyFaultKind {
 struct ReplyFault {
   ReplyFaultKind fault = ReplyFaultKind::kNone;
   std::chrono::milliseconds delay{0};
-  int count = 1;  ///< negative: until cleared
+  int count = 1;             ///< negative: until cleared
+  bool writes_only = false;  ///< replies to reads are not affected
 };
 
 /// An action on the rig.
@@ -52,7 +53,16 @@ struct Action {
     kSight,    ///< returns the variable part of the scene, for the camera driver
     kHelp,
   };
-  enum class Input { kStopButton, kPositiveEnd, kNegativeEnd, kStall, kFreeze };
+  enum class Input {
+    kStopButton,
+    kPositiveEnd,
+    kNegativeEnd,
+    kStall,
+    kFreeze,
+    kDeaf,
+    kRunaway,
+    kDrift
+  };
   Kind kind = Kind::kState;
   ReplyFault reply_fault;
   Input input = Input::kStopButton;

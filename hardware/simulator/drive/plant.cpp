@@ -82,8 +82,8 @@ void Plant::update_registers() {
   registers_.set_state(state);
 }
 
-ReplyFault Plant::next_fault() {
-  if (fault_.count == 0) return {ReplyFaultKind::kNone, {}, 0};
+ReplyFault Plant::next_fault(bool is_write) {
+  if (fault_.count == 0 || (fault_.writes_only && !is_write)) return {};
   if (fault_.count > 0) --fault_.count;
   return fault_;
 }
@@ -92,7 +92,7 @@ Answer Plant::answer(Request request) {
   const std::scoped_lock lock(mutex_);
   catch_up();
   if (!powered_ || request.size() < 6 || request[0] != unit()) return {};
-  const ReplyFault reply_fault = next_fault();
+  const ReplyFault reply_fault = next_fault(request[1] == kWriteOne || request[1] == kWriteMany);
   if (reply_fault.fault == ReplyFaultKind::kDropRequest) return {{}, reply_fault};
   ++requests_;
   model_.heard_s = model_.time_s;
@@ -170,6 +170,15 @@ void Plant::press(Action::Input input, bool pressed) {
     case Action::Input::kFreeze:
       inputs_.frozen = pressed;
       break;
+    case Action::Input::kDeaf:
+      inputs_.deaf = pressed;
+      break;
+    case Action::Input::kRunaway:
+      inputs_.runaway = pressed;
+      break;
+    case Action::Input::kDrift:
+      inputs_.drifting = pressed;
+      break;
   }
 }
 
@@ -228,6 +237,9 @@ std::string Plant::state_json() {
                                       {"stop_button", inputs_.stop_button},
                                       {"stalled", inputs_.stalled},
                                       {"frozen", inputs_.frozen},
+                                      {"deaf", inputs_.deaf},
+                                      {"runaway", inputs_.runaway},
+                                      {"drifting", inputs_.drifting},
                                       {"watchdog_s", machine_.watchdog_s},
                                       {"requests", requests_}};
   return out.dump();

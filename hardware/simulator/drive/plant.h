@@ -64,7 +64,7 @@ class Plant {
  private:
   void catch_up();
   void update_registers();
-  [[nodiscard]] ReplyFault next_fault();
+  [[nodiscard]] ReplyFault next_fault(bool is_write);
   [[nodiscard]] std::vector<std::uint8_t> serve_request(std::span<const std::uint8_t> request);
   [[nodiscard]] std::vector<std::uint8_t> serve_read(std::span<const std::uint8_t> request);
   [[nodiscard]] std::vector<std::uint8_t> serve_write(std::span<const std::uint8_t> request);

@@ -2,8 +2,15 @@
 
 #include "hardware/drive/profile.h"
 #include "hardware/rig/config.h"
+#include "hardware/rig/samples.h"
 
 namespace hydroprint::rig {
+
+/// A point in time, some time after the start of a test.
+inline TimePoint at(double t_s) {
+  return TimePoint(
+      std::chrono::duration_cast<TimePoint::duration>(std::chrono::duration<double>(1000 + t_s)));
+}
 
 /// The profile used in tests, with round numbers.
 inline drive::DriveProfile test_profile() {

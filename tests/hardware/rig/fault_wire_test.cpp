@@ -188,6 +188,62 @@ TEST_P(Fault, AFrozenPositionIsAFollowingError) {
   expect_the_long_way_back(rig);
 }
 
+/// Expects STOP_NOT_OBEYED, and the drive's watchdog to bring the axis to rest.
+void expect_that_the_watchdog_stops(WiredRig& rig) {
+  ASSERT_TRUE(wait_until([&] { return rig.cause() == Cause::kStopNotObeyed; }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  rig.drive().act("clear");
+  ASSERT_TRUE(rig.becomes(State::kFault));
+  EXPECT_EQ(rig.cause(), Cause::kStopNotObeyed);
+}
+
+TEST_P(Fault, AMotionBeginsThoughTheReplyToItsCommandIsLost) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  double target_mm = 4;
+  for (const auto* fault : {"fault drop 1 writes", "fault wrong-crc 1 writes"}) {
+    rig.drive().act(fault);
+    const Answer answer = rig->move_to(target_mm, 10).get();
+    ASSERT_TRUE(answer) << answer.error().message;
+    EXPECT_EQ(rig.finish(*answer).outcome, Outcome::kDone);
+    EXPECT_NEAR(rig.drive().position_mm(), target_mm, 0.01);
+    target_mm += 2;
+  }
+}
+
+TEST_P(Fault, AStopThatIsNotObeyedIsNamedAndLeftToTheWatchdog) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(200, 10);
+  rig.drive().act("press deaf");
+  const double asked_mm = rig.drive().position_mm();
+  rig->stop();
+  expect_that_the_watchdog_stops(rig);
+  EXPECT_EQ(rig.report(motion).outcome, Outcome::kStopped);
+  EXPECT_LE(rig.drive().position_mm() - asked_mm,
+            stopping_distance_mm(rig->config(), rig->profile(), 10));
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, AnAxisThatRunsAwayAtRestIsStoppedByTheWatchdog) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  rig.drive().act("press runaway");
+  ASSERT_TRUE(wait_until([&] { return rig.cause() != Cause::kNone; }, 1));
+  EXPECT_EQ(rig.cause(), Cause::kUnexpectedMotion);
+  expect_that_the_watchdog_stops(rig);
+}
+
+TEST_P(Fault, AnAxisThatDriftsAtRestIsStopped) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const double from_mm = rig.drive().position_mm();
+  rig.drive().act("press drift");
+  ASSERT_TRUE(wait_until([&] { return rig.cause() != Cause::kNone; }, 10));
+  EXPECT_EQ(rig.cause(), Cause::kUnexpectedMotion);
+  EXPECT_LE(rig.drive().position_mm() - from_mm, 1);
+}
+
 TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
   WiredRig rig(GetParam());
   rig.make_ready();

@@ -12,11 +12,6 @@ namespace {
 
 using Kind = Event::Kind;
 
-TimePoint at(double t_s) {
-  return TimePoint(
-      std::chrono::duration_cast<TimePoint::duration>(std::chrono::duration<double>(1000 + t_s)));
-}
-
 drive::DriveState axis(double t_s, double position_mm, bool moving) {
   drive::DriveState out;
   out.time = at(t_s);
@@ -26,9 +21,10 @@ drive::DriveState axis(double t_s, double position_mm, bool moving) {
   return out;
 }
 
-/// The event with which a supervisor ends a motion, and its time.
+/// The event with which a supervisor ends a motion, its fault, and its time.
 struct End {
   std::optional<Kind> event;
+  Cause cause = Cause::kNone;
   double t_s = 0;
   int legs = 0;
 };
@@ -44,7 +40,8 @@ End play(MotionSupervisor& supervisor, const std::function<double(const Travel&,
     if (travel) position_mm = where(*travel, t_s - leg_s);
     const auto advice = supervisor.look(axis(t_s, position_mm, moving));
     if (advice.event) {
-      end.event = advice.event;
+      end.event = advice.event->kind;
+      end.cause = advice.event->cause;
       end.t_s = t_s;
       return end;
     }
@@ -86,7 +83,7 @@ TEST(MotionSupervisor, AStalledAxisIsDetectedWithinTheBand) {
     const End end = play(supervisor, [](const Travel& t, double s) {
       return t.position_mm(std::min(s, 1.0));  // the axis is blocked from 1 s on
     });
-    EXPECT_EQ(end.event, Kind::kFollowingError);
+    EXPECT_EQ(end.cause, Cause::kFollowingError);
     const RigConfig config = test_config();
     const double band_s = config.following_error_s + config.following_error_mm / speed;
     EXPECT_NEAR(end.t_s, 1 + band_s, 0.05) << speed;
@@ -102,7 +99,7 @@ TEST(MotionSupervisor, AnAxisThatLagsWithinTheBandContinues) {
 
 TEST(MotionSupervisor, AFrozenOrMissingPositionIsAFollowingError) {
   MotionSupervisor frozen = move_supervisor(100, 10);
-  EXPECT_EQ(play(frozen, [](const Travel&, double) { return 10.0; }).event, Kind::kFollowingError);
+  EXPECT_EQ(play(frozen, [](const Travel&, double) { return 10.0; }).cause, Cause::kFollowingError);
   MotionSupervisor none = move_supervisor(100, 10);
   EXPECT_TRUE(play(none, [](const Travel&, double) {
                 return std::numeric_limits<double>::quiet_NaN();
@@ -114,24 +111,31 @@ TEST(MotionSupervisor, AnAxisThatStopsShortIsNotDone) {
   const End end = play(supervisor, [](const Travel& t, double s) {
     return std::min(t.position_mm(s), 99.8);  // within the following band, but not at the target
   });
-  EXPECT_EQ(end.event, Kind::kFollowingError);
+  EXPECT_EQ(end.cause, Cause::kFollowingError);
 }
 
 TEST(MotionSupervisor, RunningPastTheSoftLimitTripsTheGuard) {
   MotionSupervisor supervisor = move_supervisor(300, 10);
   const End end =
       play(supervisor, [](const Travel& t, double s) { return t.position_mm(s) + 1.1; });
-  EXPECT_EQ(end.event, Kind::kOutsideLimits);
+  EXPECT_EQ(end.cause, Cause::kGuard);
 }
 
 MotionSupervisor home_supervisor() {
   return {test_config(), test_profile(), {Motion::kHome}, at(0), 0};
 }
 
-drive::DriveState homing(double t_s, bool moving, bool homed) {
-  drive::DriveState out = axis(t_s, 500, moving);  // the position means nothing before homing
+drive::DriveState homing(double t_s, bool moving, bool homed, double position_mm = 0) {
+  drive::DriveState out = axis(t_s, position_mm, moving);
   out.homed = homed;
   return out;
+}
+
+std::optional<Kind> kind_of(const MotionSupervisor::Advice& advice) {
+  return advice.event ? std::optional(advice.event->kind) : std::nullopt;
+}
+Cause cause_of(const MotionSupervisor::Advice& advice) {
+  return advice.event ? advice.event->cause : Cause::kNone;
 }
 
 TEST(MotionSupervisor, HomingIsDoneWhenHomedAndAtRestAfterMotion) {
@@ -140,38 +144,74 @@ TEST(MotionSupervisor, HomingIsDoneWhenHomedAndAtRestAfterMotion) {
       << "an earlier homing does not count";
   EXPECT_FALSE(supervisor.look(homing(0.04, true, false)).event);
   EXPECT_FALSE(supervisor.look(homing(0.06, true, true)).event);
-  EXPECT_EQ(supervisor.look(homing(0.08, false, true)).event, Kind::kMotionDone);
+  EXPECT_EQ(kind_of(supervisor.look(homing(0.08, false, true))), Kind::kMotionDone);
+}
+
+TEST(MotionSupervisor, AHomeThatWasNotSeenDoesNotCount) {
+  MotionSupervisor stale = home_supervisor();
+  EXPECT_FALSE(stale.look(homing(0.02, true, true)).event);
+  EXPECT_EQ(cause_of(stale.look(homing(0.04, false, true))), Cause::kHomingFailed);
+  MotionSupervisor by_switch = home_supervisor();
+  drive::DriveState pressed = homing(0.02, true, true);
+  pressed.home_switch = true;
+  EXPECT_FALSE(by_switch.look(pressed).event);
+  EXPECT_FALSE(by_switch.look(homing(0.04, true, true)).event);
+  EXPECT_EQ(kind_of(by_switch.look(homing(0.06, false, true))), Kind::kMotionDone);
+}
+
+TEST(MotionSupervisor, HomingFailsAwayFromZero) {
+  MotionSupervisor supervisor = home_supervisor();
+  EXPECT_FALSE(supervisor.look(homing(0.02, true, false, 80)).event);
+  EXPECT_EQ(cause_of(supervisor.look(homing(0.04, false, true, 80))), Cause::kHomingFailed);
+}
+
+TEST(MotionSupervisor, HomingFailsAfterAWayLongerThanTheAxis) {
+  MotionSupervisor supervisor = home_supervisor();
+  const RigConfig config = test_config();
+  const double longest_mm = config.end_high_mm - config.end_low_mm + config.keep_out_mm;
+  for (int i = 0;; ++i) {
+    const double way_mm = 0.2 * i;
+    const auto advice = supervisor.look(homing(0.02 * i, true, false, 100 - way_mm));
+    if (way_mm <= longest_mm - 0.1) {
+      ASSERT_FALSE(advice.event) << way_mm;
+      continue;
+    }
+    if (!advice.event) continue;
+    EXPECT_NEAR(way_mm, longest_mm, 0.3);
+    EXPECT_EQ(cause_of(advice), Cause::kHomingFailed);
+    break;
+  }
 }
 
 TEST(MotionSupervisor, HomingFailsWithoutHomeOrAfterATimeout) {
   MotionSupervisor ends = home_supervisor();
   EXPECT_FALSE(ends.look(homing(0.04, true, false)).event);
-  EXPECT_EQ(ends.look(homing(0.06, false, false)).event, Kind::kFollowingError);
+  EXPECT_EQ(cause_of(ends.look(homing(0.06, false, false))), Cause::kHomingFailed);
   MotionSupervisor never_moves = home_supervisor();
-  EXPECT_EQ(never_moves.look(homing(0.6, false, false)).event, Kind::kFollowingError);
+  EXPECT_EQ(cause_of(never_moves.look(homing(0.6, false, false))), Cause::kHomingFailed);
   MotionSupervisor endless = home_supervisor();
-  EXPECT_EQ(endless.look(homing(test_config().home_timeout_s + 1, true, false)).event,
-            Kind::kFollowingError);
+  EXPECT_EQ(cause_of(endless.look(homing(test_config().home_timeout_s + 1, true, false))),
+            Cause::kHomingFailed);
 }
 
 TEST(MotionSupervisor, AJogLastsAsLongAsItIsHeld) {
   MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 5}, at(0), 100);
   for (double t_s = 0; t_s < 3; t_s += 0.2) {
-    supervisor.hold_jog(at(t_s), 5);
+    supervisor.hold_jog(at(t_s), at(t_s), 5);
     EXPECT_FALSE(supervisor.look(axis(t_s + 0.19, 100 + 5 * t_s, true)).event);
   }
-  EXPECT_EQ(supervisor.look(axis(3.3, 116, true)).event, Kind::kJogOver);
+  EXPECT_EQ(kind_of(supervisor.look(axis(3.3, 116, true))), Kind::kJogOver);
 }
 
 TEST(MotionSupervisor, AnOlderHoldDoesNotShortenAJog) {
   MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 5}, at(1), 100);
-  supervisor.hold_jog(at(0.5), 5);
+  supervisor.hold_jog(at(0.5), at(1), 5);
   EXPECT_FALSE(supervisor.look(axis(1.2, 101, true)).event);
 }
 
 TEST(MotionSupervisor, AJogEndsBeforeTheSoftLimit) {
   MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 10}, at(0), 299);
-  EXPECT_EQ(supervisor.look(axis(0.01, 299.9, true)).event, Kind::kJogOver);
+  EXPECT_EQ(kind_of(supervisor.look(axis(0.01, 299.9, true))), Kind::kJogOver);
 }
 
 TEST(Plan, IsRefusedIfOneLegIsOutOfReach) {

@@ -191,13 +191,11 @@ TEST(State, AMotionEndsByBeingDoneOrByAStop) {
 }
 
 TEST(State, AFaultInMotionStopsTheAxisAndIsKept) {
-  const std::map<Kind, Cause> causes = {{Kind::kLost, Cause::kLinkLost},
-                                        {Kind::kOutsideLimits, Cause::kGuard},
-                                        {Kind::kFollowingError, Cause::kFollowingError}};
-  for_each_step([&](const Condition& c, const Event& event, const Step& taken) {
+  for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!in_motion(c.state)) return;
     Cause cause = Cause::kNone;
-    if (causes.contains(event.kind)) cause = causes.at(event.kind);
+    if (event.kind == Kind::kLost) cause = Cause::kLinkLost;
+    if (event.kind == Kind::kFault) cause = event.cause;
     if (has_bits(event) && event.bits.button)
       cause = Cause::kStopButton;
     else if (has_bits(event) && c.homed && event.bits.limit)
@@ -215,6 +213,26 @@ TEST(State, AFaultInMotionStopsTheAxisAndIsKept) {
     EXPECT_TRUE(taken.actions.stop);
     EXPECT_FALSE(in_motion(taken.next.state));
     EXPECT_FALSE(taken.next.homed);
+  });
+}
+
+TEST(State, AFaultObservedAtRestStopsTheAxisAndDiscardsTheHomePosition) {
+  for_each_step([](const Condition& c, const Event& event, const Step& taken) {
+    const bool at_rest = c.state == State::kUnhomed || c.state == State::kIdle;
+    if (event.kind != Kind::kFault || !at_rest) return;
+    EXPECT_EQ(taken.next.state, State::kStopping);
+    EXPECT_EQ(taken.next.cause, event.cause);
+    EXPECT_TRUE(taken.actions.stop);
+    EXPECT_FALSE(taken.next.homed);
+  });
+}
+
+TEST(State, AStopThatIsNotObeyedReplacesEveryOtherCause) {
+  for_each_step([](const Condition& c, const Event& event, const Step& taken) {
+    if (event.kind != Kind::kFault || c.state != State::kStopping) return;
+    const bool is_loud = event.cause == Cause::kStopNotObeyed;
+    EXPECT_EQ(taken.next.cause, is_loud ? Cause::kStopNotObeyed : c.cause);
+    EXPECT_EQ(taken.next.state, State::kStopping);
   });
 }
 

@@ -33,6 +33,12 @@ std::string text(const Condition& c, const Event& event) {
          "\nto " + ::testing::PrintToString(step(c, event).next);
 }
 
+std::vector<Cause> observed_causes() {
+  return {Cause::kGuard,     Cause::kFollowingError, Cause::kUnexpectedMotion,
+          Cause::kOverspeed, Cause::kWrongDirection, Cause::kPositionJumped,
+          Cause::kFeedback,  Cause::kHomingFailed,   Cause::kStopNotObeyed};
+}
+
 bool is_start(const Event& event) {
   return event.kind == Kind::kHome || event.kind == Kind::kMove || event.kind == Kind::kJog ||
          event.kind == Kind::kDip;
@@ -48,6 +54,11 @@ std::vector<Event> all_events() {
   std::vector<Event> out;
   for (int kind = 0; kind <= static_cast<int>(Kind::kReset); ++kind) {
     const Event event{static_cast<Kind>(kind)};
+    if (event.kind == Kind::kFault) {
+      for (const Cause cause : observed_causes())
+        out.push_back({.kind = Kind::kFault, .cause = cause});
+      continue;
+    }
     if (!has_bits(event)) {
       out.push_back(event);
       continue;

@@ -24,6 +24,9 @@ void PrintTo(const Event& event, std::ostream* out);
 /// Whether the event is a poll of the drive and so contains the drive's bits.
 [[nodiscard]] bool has_bits(const Event& event);
 
+/// The causes of Event::Kind::kFault.
+[[nodiscard]] std::vector<Cause> observed_causes();
+
 /// All possible events, with all values of their bits.
 [[nodiscard]] std::vector<Event> all_events();
 
