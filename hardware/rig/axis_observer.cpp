@@ -48,8 +48,7 @@ std::optional<Cause> AxisObserver::look(const Condition& condition,
   before_ = condition;
   add(axis);
   order_.stopped = stopped;
-  const bool has_torque = condition.state != State::kFault || axis.enabled;
-  if (!has_torque || condition.link == Link::kNone) return std::nullopt;
+  if (condition.link == Link::kNone) return std::nullopt;
   const bool supervised = supervisor != nullptr && in_motion(condition.state);
   return observe(config_, profile_, supervised ? supervisor->order() : order_, samples_);
 }

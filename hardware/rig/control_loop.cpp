@@ -155,9 +155,13 @@ void ControlLoop::lose() {
   axis_.reset();
   observer_.forget();
   apply({Kind::kLost});
-  if (condition_.state != State::kStopping) return;
+  if (condition_.state == State::kStopping) link_monitor_.keep_silent(silence_s());
+}
+
+/// The time of silence after which the drive's watchdog has acted.
+double ControlLoop::silence_s() const {
   const double patience_s = std::chrono::duration<double>(StopChannel::kPatience).count();
-  link_monitor_.keep_silent(patience_s + link_monitor_.watchdog_s() + kWatchdogMargin_s);
+  return patience_s + link_monitor_.watchdog_s() + kWatchdogMargin_s;
 }
 
 /// Returns whether the samples show a fault.
@@ -178,6 +182,7 @@ bool ControlLoop::observe(const drive::DriveState& axis) {
 
 /// Nothing more is sent, so that the drive's watchdog stops the axis.
 void ControlLoop::fall_silent(Cause cause) {
+  stop_channel_.keep_silent(std::chrono::duration<double>(silence_s()));
   apply({.kind = Kind::kFault, .cause = cause});
   link_monitor_.lose();
   lose();

@@ -42,6 +42,7 @@ class ControlLoop {
   void follow(const drive::DriveState& axis);
   [[nodiscard]] bool observe(const drive::DriveState& axis);
   void fall_silent(Cause cause);
+  [[nodiscard]] double silence_s() const;
   void take_orders();
   void keep_going();
   void publish();

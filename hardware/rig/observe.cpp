@@ -156,7 +156,7 @@ Found look_at_stop(const drive::DriveProfile& profile, const AxisOrder& order, S
 }
 
 bool is_at_rest(State state) {
-  return state == State::kUnhomed || state == State::kIdle || state == State::kFault;
+  return state == State::kUnhomed || state == State::kIdle;
 }
 
 }  // namespace

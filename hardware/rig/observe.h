@@ -36,7 +36,7 @@ inline constexpr double kObserved_s = 4;
 
 /// Compares the samples with the order, and position with velocity; returns the fault that they
 /// show. Modelled on the monitoring functions of IEC 61800-5-2; README.md lists the rules.
-/// - at rest (UNHOMED, IDLE, FAULT): the position stays within `standstill_mm` (SOS);
+/// - at rest (UNHOMED, IDLE): the position stays within `standstill_mm` (SOS);
 /// - jog, move, dip, homing: the speed stays below that ordered (SLS); a jog makes progress, in its
 ///   direction (SDI);
 /// - in a motion: position and velocity agree (not without a velocity register);

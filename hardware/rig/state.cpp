@@ -116,8 +116,7 @@ Step assume_standstill(Condition c) {
 
 /// A fault that is observed at standstill also leads to STOPPING: the axis may have begun to move.
 Step fault(const Condition& c, Cause cause) {
-  const bool watched = in_motion(c.state) || at_rest_armed(c.state) || c.state == State::kFault;
-  if (watched) return trip(c, cause, true);
+  if (in_motion(c.state) || at_rest_armed(c.state)) return trip(c, cause, true);
   if (c.state != State::kStopping || cause != Cause::kStopNotObeyed) return stay(c);
   // Replaces the first cause, because a person must act now.
   Condition next = c;

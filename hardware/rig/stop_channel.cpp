@@ -55,6 +55,18 @@ bool StopChannel::owner_is_late() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - clean).count() > kStale_s;
 }
 
+void StopChannel::keep_silent(std::chrono::duration<double> silence) noexcept {
+  const auto until = std::chrono::steady_clock::now() + silence;
+  silent_until_ =
+      std::chrono::time_point_cast<TimePoint::duration>(until).time_since_epoch().count();
+}
+
+void StopChannel::send_stop() {
+  const auto now = [] { return std::chrono::steady_clock::now().time_since_epoch().count(); };
+  if (now() < silent_until_) return;
+  if (line_.stop(kPatience)) acknowledged_ = now();
+}
+
 void StopChannel::run() {
   // The system grants the same to the control loop, which reports it.
   (void)become_real_time(kStopPriority);
@@ -71,9 +83,7 @@ void StopChannel::run() {
     }
     // Errors are ignored: the control loop sees whether the drive stopped when it polls.
     stopping_ = true;
-    if (stop_.exchange(false) && line_.stop(kPatience)) {
-      acknowledged_ = std::chrono::steady_clock::now().time_since_epoch().count();
-    }
+    if (stop_.exchange(false)) send_stop();
     stopping_ = false;
     if (prepare_.exchange(false)) (void)line_.connect();
   }

@@ -32,6 +32,9 @@ class StopChannel {
   [[nodiscard]] TimePoint acknowledged() const noexcept {
     return TimePoint(TimePoint::duration(acknowledged_));
   }
+  /// Sends no stops for this long: the drive does not obey them, but each one would keep its
+  /// watchdog from stopping the axis.
+  void keep_silent(std::chrono::duration<double> silence) noexcept;
   /// Has the thread connect in advance. Returns immediately.
   void prepare() noexcept;
 
@@ -44,13 +47,14 @@ class StopChannel {
  private:
   void run();
   [[nodiscard]] bool owner_is_late() const;
+  void send_stop();
   void ring() noexcept;
 
   drive::StopLine line_;
   int wake_event_;  // eventfd
   std::atomic<bool> stop_{false}, stopping_{false}, prepare_{false}, tripped_{false}, end_{false};
   std::atomic<bool> in_motion_{false};
-  std::atomic<TimePoint::rep> clean_{0}, acknowledged_{0};
+  std::atomic<TimePoint::rep> clean_{0}, acknowledged_{0}, silent_until_{0};
   std::thread thread_;
 };
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <iostream>
+#include <thread>
 #include <vector>
 
 #include "tests/hardware/rig/wired_rig.h"
@@ -18,7 +19,7 @@ namespace {
 
 using Outcome = MotionReport::Outcome;
 
-constexpr int kMotions = 10;
+constexpr int kMotions = 20;
 constexpr double kSpeed_mm_per_s = 10;
 constexpr double kNear_mm = 20;
 
@@ -53,6 +54,28 @@ class BusyProcessors {
   std::vector<pid_t> processes_;
 };
 
+/// Moves there, or dips there and back.
+MotionReport travel(WiredRig& rig, bool dips, double target_mm) {
+  const Leg there{target_mm, kSpeed_mm_per_s, 0};
+  const Answer motion =
+      (dips ? rig->dip({there, {kNear_mm, kSpeed_mm_per_s, 0}}) : rig->move_to(target_mm, 10))
+          .get();
+  EXPECT_TRUE(motion) << motion.error().message;
+  return rig.finish(motion.value_or(0));
+}
+
+/// Jogs down, then up, at changing speeds, and ends at standstill.
+MotionReport jog(WiredRig& rig) {
+  std::uint64_t number = 0;
+  for (const double speed_mm_per_s : {5.0, 10.0, 2.0, -4.0, -8.0}) {
+    const Answer motion = rig->jog(speed_mm_per_s).get();
+    EXPECT_TRUE(motion) << motion.error().message;
+    number = motion.value_or(number);
+    std::this_thread::sleep_for(std::chrono::milliseconds(120));
+  }
+  return rig.finish(number);
+}
+
 TEST(Busy, OtherProcessesDoNotDisturbMotions) {
   const BusyProcessors busy;
   WiredRig rig("tcp");
@@ -64,14 +87,20 @@ TEST(Busy, OtherProcessesDoNotDisturbMotions) {
            "RLIMIT_RTPRIO to 20";
   }
   // Short motions in tests/run, long ones in the campaign.
-  const double travel_mm = kSpeed_mm_per_s * (testing::campaign_rounds(1) > 1 ? 3 : 1);
+  const double travel_mm = kSpeed_mm_per_s * (testing::campaign_rounds(1) > 1 ? 3 : 0.5);
   for (int i = 0; i < testing::campaign_rounds(kMotions); ++i) {
-    const double target_mm = i % 2 == 0 ? kNear_mm + travel_mm : kNear_mm;
-    const Answer motion = rig->move_to(target_mm, kSpeed_mm_per_s).get();
-    ASSERT_TRUE(motion) << motion.error().message;
-    const MotionReport done = rig.finish(*motion);
-    ASSERT_EQ(done.outcome, Outcome::kDone) << "motion " << i;
-    ASSERT_NEAR(rig.drive().position_mm(), target_mm, 0.01);
+    MotionReport done;
+    if (i % 5 == 3) {
+      done = jog(rig);
+      ASSERT_EQ(done.outcome, Outcome::kStopped) << "motion " << i;
+    } else if (i % 5 == 4) {
+      done = rig.finish(rig->home().get().value_or(0));
+      ASSERT_EQ(done.outcome, Outcome::kDone) << "motion " << i;
+    } else {
+      done = travel(rig, i % 5 == 2, kNear_mm + (i % 2 == 0 ? travel_mm : 0));
+      ASSERT_EQ(done.outcome, Outcome::kDone) << "motion " << i;
+    }
+    ASSERT_EQ(done.cause, Cause::kNone) << "motion " << i;
   }
   const Snapshot now = rig->snapshot();
   EXPECT_EQ(now.condition.state, State::kIdle);

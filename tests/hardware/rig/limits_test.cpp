@@ -75,6 +75,7 @@ TEST(Config, EveryValueOutOfRangeIsRefusedByName) {
                                    {"poll_period_s", &RigConfig::poll_period_s},
                                    {"following_error_mm", &RigConfig::following_error_mm},
                                    {"following_error_s", &RigConfig::following_error_s},
+                                   {"standstill_mm", &RigConfig::standstill_mm},
                                    {"arrival_mm", &RigConfig::arrival_mm},
                                    {"home_timeout_s", &RigConfig::home_timeout_s}};
   for (const Case& c : cases) {
