@@ -90,7 +90,9 @@ AxisOrder MotionSupervisor::order() const {
     return out;
   }
   if (travel_) out.since = leg_start_;
-  out.speed_mm_per_s = plan_.legs[leg_].speed_mm_per_s;
+  out.turned = out.since;
+  const Leg& leg = plan_.legs[leg_];
+  out.speed_mm_per_s = std::copysign(leg.speed_mm_per_s, leg.target_mm - from_mm_);
   return out;
 }
 

@@ -108,22 +108,28 @@ std::optional<double> way_mm(const AxisOrder& order, Samples samples, double win
   return std::nullopt;
 }
 
-/// A jog from standstill must not go back at all; one that was slower or turned gets time to brake.
-bool goes_back(const AxisOrder& order, Samples samples, double ramp_s) {
-  const double allowed_s = order.entry_mm_per_s > 0 ? ramp_s : 0;
+/// The time that the axis needs to reach the ordered speed.
+double ramp_s(const drive::DriveProfile& profile, const AxisOrder& order) {
+  return kReaction_s +
+         (order.entry_mm_per_s + std::abs(order.speed_mm_per_s)) / profile.acceleration_mm_per_s2;
+}
+
+/// A motion from standstill must not go back at all; one that was faster or turned may brake first.
+bool goes_back(const drive::DriveProfile& profile, const AxisOrder& order, Samples samples) {
+  const double allowed_s = order.entry_mm_per_s > 0 ? ramp_s(profile, order) : 0;
   const double window_s =
       std::min(seconds(order.turned, samples.back().time) - allowed_s, kReaction_s);
   if (window_s <= 0) return false;
   return way_mm(order, samples, window_s).value_or(0) < -kLeastProgress_mm;
 }
 
-Found look_at_jog(const drive::DriveProfile& profile, const AxisOrder& order, Samples samples) {
+Found look_for_progress(const drive::DriveProfile& profile, const AxisOrder& order,
+                        Samples samples) {
   const double speed_mm_per_s = std::abs(order.speed_mm_per_s);
-  const double ramp_s =
-      (order.entry_mm_per_s + speed_mm_per_s) / profile.acceleration_mm_per_s2 + kReaction_s;
-  if (goes_back(order, samples, ramp_s)) return Cause::kWrongDirection;
   const double window_s = std::max(kProgress_s, kLeastProgress_mm / speed_mm_per_s);
-  if (seconds(order.since, samples.back().time) < ramp_s + window_s) return std::nullopt;
+  if (seconds(order.since, samples.back().time) < ramp_s(profile, order) + window_s) {
+    return std::nullopt;
+  }
   const auto ahead_mm = way_mm(order, samples, window_s);
   if (!ahead_mm || *ahead_mm >= kProgressShare * speed_mm_per_s * window_s) return std::nullopt;
   const double told_mm_per_s =
@@ -155,9 +161,7 @@ Found look_at_stop(const drive::DriveProfile& profile, const AxisOrder& order, S
   return after > (1 - kSlowed) * before ? Found(Cause::kStopNotObeyed) : std::nullopt;
 }
 
-bool is_at_rest(State state) {
-  return state == State::kUnhomed || state == State::kIdle;
-}
+bool is_at_rest(State state) { return state == State::kUnhomed || state == State::kIdle; }
 
 }  // namespace
 
@@ -188,7 +192,9 @@ std::optional<Cause> observe(const RigConfig& config, const drive::DriveProfile&
   }
   if (const Found differs = compare_feedback(profile, order, samples)) return differs;
   if (const Found fast = look_for_overspeed(profile, order, samples)) return fast;
-  return order.motion == Motion::kJog ? look_at_jog(profile, order, samples) : std::nullopt;
+  if (order.motion == Motion::kHome) return std::nullopt;
+  if (goes_back(profile, order, samples)) return Cause::kWrongDirection;
+  return order.motion == Motion::kJog ? look_for_progress(profile, order, samples) : std::nullopt;
 }
 
 }  // namespace hydroprint::rig

@@ -24,10 +24,10 @@ struct AxisOrder {
   Motion motion = Motion::kNone;
   /// When the state began; in a motion: when its speed was last ordered.
   TimePoint since = {};
-  double from_mm = 0;         ///< at rest: position at `since`
-  double speed_mm_per_s = 0;  ///< speed of the move or of homing; signed for a jog
-  double entry_mm_per_s = 0;  ///< bound of the speed at `since`, of an earlier order
-  TimePoint turned = {};      ///< jog: since then, the direction is that of `speed_mm_per_s`
+  double from_mm = 0;                     ///< at rest: position at `since`
+  double speed_mm_per_s = 0;              ///< signed, except for homing, which may go either way
+  double entry_mm_per_s = 0;              ///< bound of the speed at `since`, of an earlier order
+  TimePoint turned = {};                  ///< since then, the direction is that of `speed_mm_per_s`
   std::optional<TimePoint> stopped = {};  ///< STOPPING: when the drive acknowledged the stop
 };
 
@@ -37,8 +37,8 @@ inline constexpr double kObserved_s = 4;
 /// Compares the samples with the order, and position with velocity; returns the fault that they
 /// show. Modelled on the monitoring functions of IEC 61800-5-2; README.md lists the rules.
 /// - at rest (UNHOMED, IDLE): the position stays within `standstill_mm` (SOS);
-/// - jog, move, dip, homing: the speed stays below that ordered (SLS); a jog makes progress, in its
-///   direction (SDI);
+/// - jog, move, dip, homing: the speed stays below that ordered (SLS); not back
+///   (SDI, not for homing); a jog makes progress;
 /// - in a motion: position and velocity agree (not without a velocity register);
 /// - always: the position does not jump;
 /// - STOPPING: the axis slows down once the drive has acknowledged the stop.

@@ -93,7 +93,7 @@ TEST(Busy, OtherProcessesDoNotDisturbMotions) {
     if (i % 5 == 3) {
       done = jog(rig);
       ASSERT_EQ(done.outcome, Outcome::kStopped) << "motion " << i;
-    } else if (i % 5 == 4) {
+    } else if (i % 10 == 4) {
       done = rig.finish(rig->home().get().value_or(0));
       ASSERT_EQ(done.outcome, Outcome::kDone) << "motion " << i;
     } else {

@@ -340,7 +340,7 @@ const std::vector<FaultRow>& fault_table() {
       {D::kHome, F::kHomedElsewhere, Cause::kHomingFailed, kSoon_s, 0},
       {D::kHome, F::kHomeSwitchBroken, Cause::kHomingFailed, 0, axis_mm + 1},
       {D::kMove, F::kRunaway, Cause::kOverspeed, kSoon_s},
-      {D::kMove, F::kWrongWay, Cause::kFollowingError, kSoon_s},
+      {D::kMove, F::kWrongWay, Cause::kWrongDirection, kSoon_s},
       {D::kMove, F::kStalled, Cause::kFollowingError, 0.35, 0},
       {D::kMove, F::kZeroed, Cause::kPositionJumped, kSoon_s},
       {D::kMove, F::kPositionFrozen, Cause::kFeedback, kSoon_s},
