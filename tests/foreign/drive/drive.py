@@ -1,0 +1,321 @@
+"""A drive like those of CiA 402 with its axis: state machine, modes, registers, watchdog, faults. It has no input or output
+of its own: time and messages are arguments, so that its behaviour can be compared with closed forms."""
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+
+import faults
+from axis import STEP_S, Axis
+
+# Registers. Two-word values have their low word first. The axis is reversed: counts decrease downwards.
+VENDOR, PRODUCT, WATCHDOG_TIME, WATCHDOG_ACTION = 0x2100, 0x2101, 0x2110, 0x2112
+DEVICE_TYPE, STATUS, ERROR, POSITION, VELOCITY, INPUTS, RESERVED = 0x3000, 0x3001, 0x3002, 0x3003, 0x3005, 0x3007, 0x3008
+RESERVED_WORDS = 24
+MODE, TARGET, SPEED, ACCELERATION, TARGET_VELOCITY, CONTROL = 0x4000, 0x4001, 0x4003, 0x4005, 0x4007, 0x4009
+VENDOR_ID, PRODUCT_ID, CIA_402 = 0x5A17, 0x0E31, 402
+
+COUNTS_PER_MM, COUNTS_PER_MM_PER_S, COUNTS_PER_MM_PER_S2 = -1024.0, -256.0, 4.0
+PROFILE_POSITION, PROFILE_VELOCITY, HOMING = 1, 3, 6
+
+# Bits of the status word: 0x30xx states of CiA 402, 8 moving and 15 homed are the maker's.
+MOVING, HOMING_ATTAINED, HOMED = 1 << 8, 1 << 12, 1 << 15
+STATES = {"disabled": 0x40, "ready": 0x21, "switched on": 0x23, "enabled": 0x27, "quick stop": 0x07, "fault": 0x08}
+POSITIVE_END, NEGATIVE_END, HOME_SWITCH, TORQUE_OFF = 1, 2, 4, 8  # bits of INPUTS
+
+HOME_SPEED, HOME_SLOW, HOME_ACCELERATION = 15.0, 2.0, 200.0
+STOP_DECELERATION, RUN_ACCELERATION = 250.0, 1000.0
+NO_ACTION, QUICK_STOP = 0, 3  # of WATCHDOG_ACTION
+COMMUNICATION_LOST, FAR_MM, TRACE_STEPS = 0x8130, 10.0, 2
+SHOWN_AS_MOVING = 0.5  # mm/s
+SHOWN_LATER = {"deaf", "far", "endless"}  # effects that are noted as the fault when they show
+
+
+class NoRegister(Exception):
+    """Raised for addresses that the drive does not have."""
+
+
+def words_of(value: float, count: int = 2) -> list[int]:
+    """Low word first; negative numbers in two's complement."""
+    whole = round(value) & (1 << 16 * count) - 1
+    return [whole >> 16 * i & 0xFFFF for i in range(count)]
+
+
+def number_of(words: list[int]) -> int:
+    whole = words[0] | words[1] << 16
+    return whole - (1 << 32) if whole >> 31 else whole
+
+
+@dataclass(frozen=True)
+class Event:
+    at_s: float
+    what: str
+    position_mm: float
+
+
+class Drive:
+    def __init__(self, axis: Axis, now_s: float = 0.0, seed: int = 1, watchdog_s: float = 0.2, slips: bool = False):
+        self.axis, self.now_s, self.random, self.fault = axis, now_s, random.Random(seed), faults.NONE
+        self.slips = slips  # the home switch and the hard ends do not work
+        self.watchdog_ms, self.watchdog_action = round(1000 * watchdog_s), QUICK_STOP
+        self.events: list[Event] = []
+        self.trace: list[tuple[float, float, float, float]] = []  # time, position, velocity, reported position
+        self.messages_s: list[float] = []
+        self.off_until_s = self.silent_until_s = -math.inf
+        self.button = self.end_switch = False
+        self.steps = 0
+        if slips:
+            axis.low_mm, axis.high_mm = -math.inf, math.inf
+        self.switch_on()
+
+    def switch_on(self) -> None:
+        """As after its power was off: disabled, without a home position."""
+        self.state, self.control, self.error, self.homed, self.attained = "disabled", 0, 0, False, False
+        self.offset_mm = self.axis.position_mm
+        self.setting = {MODE: [0], TARGET: [0, 0], SPEED: [0, 0], ACCELERATION: [0, 0], TARGET_VELOCITY: [0, 0]}
+        self.mode, self.target_mm, self.speed, self.phase = "rest", 0.0, 0.0, ""
+        self.acceleration, self.last_message_s = HOME_ACCELERATION, None
+        self.shown: dict[str, float] = {}  # values of registers that stand still
+        self.begin_mm = self.axis.position_mm
+
+    # Time
+
+    def advance(self, until_s: float) -> None:
+        while self.now_s + STEP_S <= until_s:
+            self.now_s += STEP_S
+            self.step()
+
+    def step(self) -> None:
+        if self.fault.watch(self.mode, self.now_s):
+            self.begin_fault()
+        if self.off_until_s > -math.inf and self.now_s >= self.off_until_s:
+            self.off_until_s = -math.inf
+            self.switch_on()
+            self.note("restarted")
+        self.supervise()
+        self.move()
+        self.steps += 1
+        if self.steps % TRACE_STEPS == 0:
+            self.trace.append((self.now_s, self.axis.position_mm, self.axis.velocity, self.reported_mm()))
+
+    def supervise(self) -> None:
+        """The watchdog: without messages the axis stops and the drive is in the state fault."""
+        if (self.state == "enabled" and self.last_message_s is not None and self.watchdog_ms
+                and self.now_s - self.last_message_s > self.watchdog_ms / 1000 and self.watchdog_action == QUICK_STOP):
+            self.note("watchdog")
+            self.fail(COMMUNICATION_LOST)
+
+    def fail(self, code: int) -> None:
+        self.state, self.error = "fault", code
+        self.end_motion()
+
+    def end_motion(self) -> None:
+        """Brakes; the velocity of a jog is forgotten."""
+        self.mode, self.phase, self.setting[TARGET_VELOCITY] = "rest", "", [0, 0]
+        self.fault.effects.pop("run", None)
+
+    def move(self) -> None:
+        axis, active = self.axis, self.fault.effects if self.fault.active else {}
+        if "jam" in active:
+            axis.jam()
+        elif "run" in active and self.state == "enabled":
+            before = axis.position_mm
+            axis.step(active["run"], RUN_ACCELERATION)
+            self.fault.travel_mm += abs(axis.position_mm - before)
+            if self.fault.travel_mm >= active.get("run_mm", math.inf):
+                self.end_motion()
+        elif self.state != "enabled" or self.mode == "rest":
+            axis.step(0, STOP_DECELERATION)
+        elif self.mode == "move":
+            if axis.step_towards(self.target_mm, self.speed, self.acceleration):
+                self.end_motion()
+        elif self.mode == "jog":
+            axis.step(self.speed, self.acceleration)
+        elif self.mode == "home":
+            self.home(active)
+
+    def home(self, active: faults.Effects) -> None:
+        """Up to the switch, slowly back until it releases; that place is 0."""
+        axis = self.axis
+        if abs(axis.position_mm - self.begin_mm) > active.get("endless", math.inf) and not self.noted("fault"):
+            self.note("fault")
+        if "far" in active and abs(axis.position_mm - self.begin_mm) > FAR_MM:
+            self.homed = self.attained = True
+            self.note("fault")
+            self.end_motion()
+        elif self.phase == "search":
+            axis.step(-HOME_SPEED, HOME_ACCELERATION)
+            if axis.home_switch and not self.slips:
+                self.phase = "back"
+        else:
+            axis.step(HOME_SLOW, HOME_ACCELERATION)
+            if not axis.home_switch:
+                self.offset_mm, self.homed, self.attained = axis.position_mm, True, True
+                self.end_motion()
+
+    def note(self, what: str) -> None:
+        self.events.append(Event(self.now_s, what, self.axis.position_mm))
+
+    def noted(self, what: str) -> bool:
+        return any(event.what == what for event in self.events)
+
+    # Faults
+
+    def set_fault(self, fault: faults.Fault) -> None:
+        self.fault = fault
+        if "stale" in fault.effects or "far" in fault.effects:
+            self.offset_mm = 0.0
+        if "stale" in fault.effects:
+            self.homed = True
+
+    def begin_fault(self) -> None:
+        effects = self.fault.effects
+        if "run" in effects:
+            side = math.copysign(1.0, self.axis.velocity) if self.mode != "rest" and self.axis.velocity else 1.0
+            effects["run"] *= side
+        for name, value in (("position", self.reported_mm()), ("velocity", self.axis.velocity)):
+            if f"freeze_{name}" in effects:
+                self.shown[name] = 0.0 if effects[f"freeze_{name}"] == "zero" else value
+        self.offset_mm -= effects.get("jump", 0.0)
+        if "alarm" in effects:
+            self.fail(effects["alarm"])
+        if "off_s" in effects:
+            self.off_until_s = self.now_s + effects["off_s"]
+            self.state = "disabled"
+            self.end_motion()
+        self.silent_until_s = self.now_s + effects.get("silent_s", -math.inf)
+        self.end_switch = self.end_switch or "end_switch" in effects
+        if "button" in effects:
+            self.button = True
+            self.state = "disabled"
+            self.end_motion()
+        if not SHOWN_LATER & effects.keys() or "run" in effects:
+            self.note("fault")
+
+    @property
+    def off(self) -> bool:
+        return self.now_s < self.off_until_s
+
+    @property
+    def silent(self) -> bool:
+        return self.off or self.now_s < self.silent_until_s
+
+    def hears(self) -> bool:
+        """Whether it obeys stops; an ignored stop is when the fault shows."""
+        if self.fault.active and "deaf" in self.fault.effects:
+            if not self.noted("fault"):
+                self.note("fault")
+            return False
+        return True
+
+    # Registers
+
+    def reported_mm(self) -> float:
+        return self.shown.get("position", self.axis.position_mm - self.offset_mm)
+
+    def read(self, address: int, count: int) -> list[int]:
+        words = self.words()
+        if any(address + i not in words for i in range(count)):
+            raise NoRegister
+        return [words[address + i] for i in range(count)]
+
+    def words(self) -> dict[int, int]:
+        """All registers; the encoder is one count unsteady."""
+        velocity = self.shown.get("velocity", self.axis.velocity)
+        unsteady = self.random.choice((-1, 0, 0, 1))
+        lists = {VENDOR: [VENDOR_ID], PRODUCT: [PRODUCT_ID], WATCHDOG_TIME: words_of(self.watchdog_ms),
+                 WATCHDOG_ACTION: [self.watchdog_action], DEVICE_TYPE: [CIA_402], STATUS: [self.status()],
+                 ERROR: [self.error], POSITION: words_of(COUNTS_PER_MM * self.reported_mm() + unsteady),
+                 VELOCITY: words_of(COUNTS_PER_MM_PER_S * velocity), INPUTS: [self.inputs()],
+                 RESERVED: [0] * RESERVED_WORDS, CONTROL: [self.control], **self.setting}
+        return {address + i: word for address, words in lists.items() for i, word in enumerate(words)}
+
+    def status(self) -> int:
+        moves = abs(self.shown.get("velocity", self.axis.velocity)) > SHOWN_AS_MOVING or self.mode != "rest"
+        return (STATES[self.state] | MOVING * moves | HOMING_ATTAINED * self.attained | HOMED * self.homed)
+
+    def inputs(self) -> int:
+        return (POSITIVE_END * self.end_switch | HOME_SWITCH * (self.axis.home_switch and not self.slips)
+                | TORQUE_OFF * self.button)
+
+    def heard(self) -> None:
+        """Any valid message restarts the watchdog."""
+        self.last_message_s = self.now_s
+        self.messages_s.append(self.now_s)
+
+    def write(self, address: int, values: list[int]) -> None:
+        """Writes settings, then carries out the control word if it is among them."""
+        known = {WATCHDOG_TIME: 2, WATCHDOG_ACTION: 1, CONTROL: 1, **{key: len(old) for key, old in self.setting.items()}}
+        at = address
+        while at < address + len(values):
+            size = known.get(at)
+            words = values[at - address:at - address + (size or 1)]
+            if size is None or len(words) < size:
+                raise NoRegister
+            self.put(at, words)
+            at += size
+
+    def put(self, address: int, words: list[int]) -> None:
+        if address == WATCHDOG_TIME:
+            self.watchdog_ms = number_of(words)
+        elif address == WATCHDOG_ACTION:
+            self.watchdog_action = words[0]
+        elif address == CONTROL:
+            before, self.control = self.control, words[0]
+            self.command(words[0], rising=words[0] & ~before)
+        else:
+            self.setting[address] = words
+
+    # The state machine of CiA 402
+
+    def command(self, word: int, rising: int) -> None:
+        if self.state == "fault":
+            if rising & 0x80:
+                self.state, self.error = "disabled", 0
+            return
+        if self.button:
+            self.state = "disabled"
+            return
+        stops = (self.state == "enabled") and (word & 0x100 or word & 0x0F != 0x0F)
+        if stops:
+            self.note("stop")
+            if not self.hears():
+                return
+            self.end_motion()
+        if not word & 0x02:
+            self.state = "disabled"
+        elif word & 0x06 == 0x02:
+            self.state = "quick stop" if self.state == "enabled" else self.state
+        elif word & 0x07 == 0x06:
+            self.state = "ready"
+        elif word & 0x0F == 0x07 and self.state != "disabled":
+            self.state = "switched on"
+        elif word & 0x0F == 0x0F and self.state in ("ready", "switched on", "enabled"):
+            self.state = "enabled"
+            if not word & 0x100:
+                self.start(rising)
+
+    def start(self, rising: int) -> None:
+        """Bit 4 starts a move or homing when it rises; a jog follows its velocity at once."""
+        mode, velocity = self.setting[MODE][0], number_of(self.setting[TARGET_VELOCITY])
+        if mode == PROFILE_VELOCITY and velocity:
+            self.begin("jog", velocity / COUNTS_PER_MM_PER_S)
+        elif mode == PROFILE_POSITION and rising & 0x10:
+            self.begin("move", number_of(self.setting[SPEED]) / -COUNTS_PER_MM_PER_S)
+            self.target_mm = number_of(self.setting[TARGET]) / COUNTS_PER_MM + self.offset_mm
+        elif mode == HOMING and rising & 0x10:
+            self.begin("home", HOME_SPEED)
+            self.phase, self.begin_mm = "search", self.axis.position_mm
+            if "stale" in self.fault.effects:
+                self.fault.began_s = self.now_s
+                self.note("fault")
+                self.end_motion()
+            else:
+                self.homed = self.attained = False
+
+    def begin(self, mode: str, speed: float) -> None:
+        if mode != "jog" or self.mode != "jog":
+            self.note(f"start {mode}")
+        self.mode, self.speed = mode, speed
+        self.acceleration = number_of(self.setting[ACCELERATION]) / COUNTS_PER_MM_PER_S2
