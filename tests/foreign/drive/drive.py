@@ -8,43 +8,17 @@ from dataclasses import dataclass
 
 import faults
 from axis import STEP_S, Axis
-
-# Registers. Two-word values have their low word first. The axis is reversed: counts decrease downwards.
-VENDOR, PRODUCT, WATCHDOG_TIME, WATCHDOG_ACTION = 0x2100, 0x2101, 0x2110, 0x2112
-DEVICE_TYPE, STATUS, ERROR, POSITION, VELOCITY, INPUTS, RESERVED = 0x3000, 0x3001, 0x3002, 0x3003, 0x3005, 0x3007, 0x3008
-RESERVED_WORDS = 24
-MODE, TARGET, SPEED, ACCELERATION, TARGET_VELOCITY, CONTROL = 0x4000, 0x4001, 0x4003, 0x4005, 0x4007, 0x4009
-VENDOR_ID, PRODUCT_ID, CIA_402 = 0x5A17, 0x0E31, 402
-
-COUNTS_PER_MM, COUNTS_PER_MM_PER_S, COUNTS_PER_MM_PER_S2 = -1024.0, -256.0, 4.0
-PROFILE_POSITION, PROFILE_VELOCITY, HOMING = 1, 3, 6
-
-# Bits of the status word: 0x30xx states of CiA 402, 8 moving and 15 homed are the maker's.
-MOVING, HOMING_ATTAINED, HOMED = 1 << 8, 1 << 12, 1 << 15
-STATES = {"disabled": 0x40, "ready": 0x21, "switched on": 0x23, "enabled": 0x27, "quick stop": 0x07, "fault": 0x08}
-POSITIVE_END, NEGATIVE_END, HOME_SWITCH, TORQUE_OFF = 1, 2, 4, 8  # bits of INPUTS
+from registers import (ACCELERATION, CIA_402, CONTROL, COUNTS_PER_MM, COUNTS_PER_MM_PER_S, COUNTS_PER_MM_PER_S2, DEVICE_TYPE,
+                       ERROR, HOME_SWITCH, HOMED, HOMING, HOMING_ATTAINED, INPUTS, MODE, MOVING, POSITION, POSITIVE_END,
+                       PRODUCT, PRODUCT_ID, PROFILE_POSITION, PROFILE_VELOCITY, QUICK_STOP, RESERVED, RESERVED_WORDS,
+                       SHOWN_PER_MM_PER_S, SPEED, STATES, STATUS, TARGET, TARGET_VELOCITY, TORQUE_OFF, VELOCITY, VENDOR,
+                       VENDOR_ID, WATCHDOG_ACTION, WATCHDOG_TIME, NoRegister, number_of, words_of)
 
 HOME_SPEED, HOME_SLOW, HOME_ACCELERATION = 15.0, 2.0, 200.0
 STOP_DECELERATION, RUN_ACCELERATION = 250.0, 1000.0
-NO_ACTION, QUICK_STOP = 0, 3  # of WATCHDOG_ACTION
+FILTER_S, SHOWN_AS_MOVING = 0.005, 0.5  # the velocity register is behind by this time constant; mm/s
 COMMUNICATION_LOST, FAR_MM, TRACE_STEPS = 0x8130, 10.0, 2
-SHOWN_AS_MOVING = 0.5  # mm/s
-SHOWN_LATER = {"deaf", "far", "endless"}  # effects that are noted as the fault when they show
-
-
-class NoRegister(Exception):
-    """Raised for addresses that the drive does not have."""
-
-
-def words_of(value: float, count: int = 2) -> list[int]:
-    """Low word first; negative numbers in two's complement."""
-    whole = round(value) & (1 << 16 * count) - 1
-    return [whole >> 16 * i & 0xFFFF for i in range(count)]
-
-
-def number_of(words: list[int]) -> int:
-    whole = words[0] | words[1] << 16
-    return whole - (1 << 32) if whole >> 31 else whole
+SHOWN_LATER = {"deaf", "far", "endless", "kept"}  # effects that are noted as the fault when they show
 
 
 @dataclass(frozen=True)
@@ -64,7 +38,7 @@ class Drive:
         self.messages_s: list[float] = []
         self.off_until_s = self.silent_until_s = -math.inf
         self.button = self.end_switch = False
-        self.steps = 0
+        self.steps, self.filtered = 0, 0.0
         if slips:
             axis.low_mm, axis.high_mm = -math.inf, math.inf
         self.switch_on()
@@ -95,6 +69,9 @@ class Drive:
             self.note("restarted")
         self.supervise()
         self.move()
+        self.filtered += (self.axis.velocity - self.filtered) * STEP_S / FILTER_S
+        if "kept" in self.fault.effects and self.fault.active and self.axis.velocity == 0 and not self.noted("fault"):
+            self.note("fault")
         self.steps += 1
         if self.steps % TRACE_STEPS == 0:
             self.trace.append((self.now_s, self.axis.position_mm, self.axis.velocity, self.reported_mm()))
@@ -174,9 +151,10 @@ class Drive:
         if "run" in effects:
             side = math.copysign(1.0, self.axis.velocity) if self.mode != "rest" and self.axis.velocity else 1.0
             effects["run"] *= side
-        for name, value in (("position", self.reported_mm()), ("velocity", self.axis.velocity)):
-            if f"freeze_{name}" in effects:
-                self.shown[name] = 0.0 if effects[f"freeze_{name}"] == "zero" else value
+        if "freeze_position" in effects:
+            self.shown["position"] = self.reported_mm()
+        if "freeze_velocity" in effects:
+            self.shown["velocity"] = self.filtered if "kept" in effects else 0.0
         self.offset_mm -= effects.get("jump", 0.0)
         if "alarm" in effects:
             self.fail(effects["alarm"])
@@ -214,6 +192,9 @@ class Drive:
     def reported_mm(self) -> float:
         return self.shown.get("position", self.axis.position_mm - self.offset_mm)
 
+    def reported_velocity(self) -> float:
+        return self.shown.get("velocity", self.filtered)
+
     def read(self, address: int, count: int) -> list[int]:
         words = self.words()
         if any(address + i not in words for i in range(count)):
@@ -222,17 +203,16 @@ class Drive:
 
     def words(self) -> dict[int, int]:
         """All registers; the encoder is one count unsteady."""
-        velocity = self.shown.get("velocity", self.axis.velocity)
-        unsteady = self.random.choice((-1, 0, 0, 1))
+        velocity, unsteady = self.reported_velocity(), 0 if "position" in self.shown else self.random.choice((-1, 0, 0, 1))
         lists = {VENDOR: [VENDOR_ID], PRODUCT: [PRODUCT_ID], WATCHDOG_TIME: words_of(self.watchdog_ms),
                  WATCHDOG_ACTION: [self.watchdog_action], DEVICE_TYPE: [CIA_402], STATUS: [self.status()],
                  ERROR: [self.error], POSITION: words_of(COUNTS_PER_MM * self.reported_mm() + unsteady),
-                 VELOCITY: words_of(COUNTS_PER_MM_PER_S * velocity), INPUTS: [self.inputs()],
+                 VELOCITY: words_of(SHOWN_PER_MM_PER_S * velocity), INPUTS: [self.inputs()],
                  RESERVED: [0] * RESERVED_WORDS, CONTROL: [self.control], **self.setting}
         return {address + i: word for address, words in lists.items() for i, word in enumerate(words)}
 
     def status(self) -> int:
-        moves = abs(self.shown.get("velocity", self.axis.velocity)) > SHOWN_AS_MOVING or self.mode != "rest"
+        moves = abs(self.reported_velocity()) > SHOWN_AS_MOVING or self.mode != "rest"
         return (STATES[self.state] | MOVING * moves | HOMING_ATTAINED * self.attained | HOMED * self.homed)
 
     def inputs(self) -> int:

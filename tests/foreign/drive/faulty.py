@@ -7,6 +7,7 @@ import time
 import rows
 from claims import Outcome, Sight
 from faults import Fault
+from drive_profile import Timing
 from rows import Row
 from session import Daemon, Operator
 from simulator import Setup, Simulator
@@ -17,7 +18,7 @@ SETTLED_S = 0.4  # after the rig's last state, for the axis to come to rest
 
 def provoke(row: Row, wire: str, program: pathlib.Path, seed: int) -> Outcome:
     setup = Setup(wire, row.start_mm, slips=row.slips, seed=seed)
-    with Simulator(setup) as simulator, Daemon(program, simulator, row.axis) as daemon:
+    with Simulator(setup) as simulator, Daemon(program, simulator, Timing(), row.axis) as daemon:
         operator = Operator(daemon)
         prepare(row, operator)
         simulator.clear()
@@ -25,7 +26,7 @@ def provoke(row: Row, wire: str, program: pathlib.Path, seed: int) -> Outcome:
             set_fault(row, simulator)
         order(row, operator, simulator)
         try:
-            sights = watch(row, operator, simulator)
+            sights = watch(row, operator)
         finally:
             operator.end_jog()
         return Outcome(simulator.record(), sights, setup.watchdog_s)
@@ -50,7 +51,7 @@ def order(row: Row, operator: Operator, simulator: Simulator) -> None:
     elif row.state == rows.JOG:
         operator.jog(rows.JOG_SPEED)
     elif row.state == rows.MOVE:
-        operator.command("moveTo", positionMm=150, speedMmPerS=rows.MOVE_SPEED)
+        operator.command("moveTo", positionMm=row.target_mm, speedMmPerS=rows.MOVE_SPEED)
     elif row.state == rows.DIP:
         operator.dip(60, rows.DIP_SPEED)
         operator.wait("DIPPING", seconds=10)
@@ -61,7 +62,7 @@ def order(row: Row, operator: Operator, simulator: Simulator) -> None:
         operator.command("stop")
 
 
-def watch(row: Row, operator: Operator, simulator: Simulator) -> list[Sight]:
+def watch(row: Row, operator: Operator) -> list[Sight]:
     """Looks at the rig until it has reached a final state, or for as long as the row says."""
     sights, end = [], time.monotonic() + row.after_s + row.watched_s
     while time.monotonic() < end:

@@ -14,6 +14,7 @@ import faulty
 import motions
 import rows
 from claims import Claim, of_row
+from drive_profile import Timing
 from session import NotStarted, Refused
 
 WIRES = ("tcp", "rtu")
@@ -71,6 +72,10 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--motions", type=int, default=100, metavar="N",
                         help="good motions, and motions with a bad reply each, on each wire (default 100)")
     parser.add_argument("--only-motions", action="store_true", help="no rows")
+    parser.add_argument("--response-timeout-s", type=float, default=Timing.response_timeout_s,
+                        help=f"in the profile for motions (default {Timing.response_timeout_s:g})")
+    parser.add_argument("--worst-delay-s", type=float, default=Timing.worst_delay_s,
+                        help=f"in the profile for motions (default {Timing.worst_delay_s:g})")
     parser.add_argument("--busy", action="store_true", help="beside two processes that compute all the time")
     parser.add_argument("--small", action="store_true", help="a sample of the rows, and few motions")
     parser.add_argument("--seed", type=int, default=1, help="of the motions, of the bad replies, and of the sample")

@@ -11,12 +11,14 @@ import wires
 from axis import move_time_s
 from claims import Claim
 from drive import HOME_ACCELERATION
+from drive_profile import Timing
 from session import Daemon, Operator, Refused
 from simulator import Setup, Simulator
 
 KINDS = {"short move": 6, "long move": 1, "jog": 5, "changed jog": 4, "home": 2, "dip": 1, "arm": 1}
 LOW_MM, HIGH_MM, NEAR_MM = 9.0, 70.0, 30.0  # of the places moved to
 ARRIVED_MM = 0.15
+AFTERMATH_S = 0.3  # in which a bad reply at the end of a motion still shows
 SETTLED = ("IDLE", "FAULT", "ESTOPPED", "OFFLINE", "DISARMED", "UNHOMED")
 
 
@@ -38,9 +40,11 @@ class Trial:
 
     def __init__(self, operator: Operator, simulator: Simulator, draw: random.Random):
         self.operator, self.simulator, self.draw = operator, simulator, draw
-        self.place_mm = 0.0
+        self.place_mm, self.struck = 0.0, False
 
     def strike(self, kind: str | None, lasts_s: float) -> None:
+        """One reply goes wrong at a random time of the motion, which has just begun."""
+        self.struck = kind is not None
         if kind:
             self.simulator.set_strike(kind, lasts_s * self.draw.uniform(0.1, 0.8))
 
@@ -57,6 +61,9 @@ class Trial:
 
     def ended(self, rig: dict, outcome: str) -> str:
         """Compares the rig with what it should be."""
+        if self.struck and rig.get("state") == "IDLE":
+            time.sleep(AFTERMATH_S)
+            rig = self.operator.rig()
         last = rig.get("motion", {})
         self.place_mm = rig.get("positionMm", 0.0)
         if rig.get("state") == "IDLE" and rig.get("homed") and last.get("outcome") == outcome and not rig.get("cause"):
@@ -123,9 +130,9 @@ class Trial:
 
 
 def judge(wire: str, bad: bool, options: argparse.Namespace) -> list[Claim]:
-    draw = random.Random(f"{options.seed} {wire} {bad}")
+    draw, timing = random.Random(f"{options.seed} {wire} {bad}"), Timing(options.response_timeout_s, options.worst_delay_s)
     tally = Tally(collections.Counter(), [], collections.Counter())
-    with Simulator(Setup(wire, seed=options.seed)) as simulator, Daemon(options.daemon, simulator) as daemon:
+    with Simulator(Setup(wire, seed=options.seed)) as simulator, Daemon(options.daemon, simulator, timing) as daemon:
         operator = Operator(daemon)
         operator.prepare()
         trial = Trial(operator, simulator, draw)
@@ -137,7 +144,7 @@ def judge(wire: str, bad: bool, options: argparse.Namespace) -> list[Claim]:
             struck = simulator.record().strike
             what = f"{kind} reply" if kind else motion
             if kind and (struck is None or struck.hit_s is None):
-                what = f"no reply went wrong ({kind})"
+                what = f"motion without its {kind} reply"
             tally.tried[what] += 1
             tally.done[what] += not failure
             if failure:

@@ -26,6 +26,7 @@ class Row:
     after_s: float = 0.5  # from the start of the motion to the fault
     watched_s: float = 4.0  # how long the judge waits for the daemon
     start_mm: float = 10.0
+    target_mm: float = 150.0
     final: str = "FAULT"
     slips: bool = False
     axis: dict = field(default_factory=dict)
@@ -44,17 +45,16 @@ def everywhere(states: tuple[str, ...], what: str, cause: str, effects: dict, **
     return [Row(f"{state}-{what}", state, dict(effects), (cause,), **more) for state in states]
 
 
-ZERO = "zero"
 ROWS = [
     Row("rest-runaway", REST, {"run": 25}, (UNEXPECTED,)),
     Row("rest-runaway-fast", REST, {"run": 100, "run_mm": 144}, (UNEXPECTED,)),
-    Row("rest-runaway-velocity-frozen", REST, {"run": 25, "freeze_velocity": ZERO}, (UNEXPECTED, INCONSISTENT)),
+    Row("rest-runaway-velocity-frozen", REST, {"run": 25, "freeze_velocity": True}, (UNEXPECTED, INCONSISTENT)),
     # Without a velocity, a position that runs faster than the axis can is a jump, too.
-    Row("rest-runaway-fast-velocity-frozen", REST, {"run": 100, "run_mm": 144, "freeze_velocity": ZERO},
+    Row("rest-runaway-fast-velocity-frozen", REST, {"run": 100, "run_mm": 144, "freeze_velocity": True},
         (UNEXPECTED, INCONSISTENT, JUMPED)),
     Row("rest-runaway-position-frozen", REST, {"run": 25, "freeze_position": True}, (UNEXPECTED, INCONSISTENT)),
     Row("rest-drift", REST, {"run": 0.15}, (UNEXPECTED,), watched_s=9),
-    Row("rest-drift-velocity-frozen", REST, {"run": 0.15, "freeze_velocity": ZERO}, (UNEXPECTED, INCONSISTENT), watched_s=9),
+    Row("rest-drift-velocity-frozen", REST, {"run": 0.15, "freeze_velocity": True}, (UNEXPECTED, INCONSISTENT), watched_s=9),
     Row("rest-rezeroed", REST, {"jump": 30}, (JUMPED,)),
     Row("unhomed-runaway", UNHOMED, {"run": 25}, (UNEXPECTED,)),
 
@@ -79,9 +79,12 @@ ROWS = [
     Row("move-position-jumps", MOVE, {"jump": 30}, (JUMPED, FOLLOWING)),
     Row("dip-position-jumps", DIP, {"jump": 30}, (JUMPED, FOLLOWING)),
     *everywhere((JOG, MOVE, DIP), "position-frozen", INCONSISTENT, {"freeze_position": True}),
-    *everywhere((JOG, MOVE, DIP), "velocity-frozen", INCONSISTENT, {"freeze_velocity": ZERO}),
+    *everywhere((JOG, MOVE, DIP), "velocity-frozen", INCONSISTENT, {"freeze_velocity": True}),
     Row("home-position-frozen", HOME, {"freeze_position": True}, (INCONSISTENT,), start_mm=60),
-    Row("home-velocity-frozen", HOME, {"freeze_velocity": ZERO}, (INCONSISTENT,), start_mm=60),
+    Row("home-velocity-frozen", HOME, {"freeze_velocity": True}, (INCONSISTENT,), start_mm=60),
+
+    # The register keeps the speed of the move when the axis has arrived.
+    Row("move-velocity-kept", MOVE, {"freeze_velocity": True, "kept": True}, (INCONSISTENT,), target_mm=30, watched_s=6),
 
     *everywhere((JOG, MOVE), "deaf", NOT_OBEYED, {"deaf": True}),
     *everywhere((REST, JOG, MOVE), "alarm", "DRIVE_ALARM", {"alarm": 0x3210}, notice_mm=None),

@@ -10,12 +10,12 @@ import tempfile
 import threading
 import time
 
-import profile
+import drive_profile
 from simulator import Simulator
 
 READY = re.compile(r"\bgrpc=(\S+:\d+) http=(\S+):(\d+)")
 JOG_S = 0.08  # between two jog requests
-AXIS = {"end_low_mm": -5.0, "end_high_mm": 305.0, "keep_out_mm": 13.0, "max_speed_mm_per_s": profile.MAX_SPEED}
+AXIS = {"end_low_mm": -5.0, "end_high_mm": 305.0, "keep_out_mm": 13.0, "max_speed_mm_per_s": drive_profile.MAX_SPEED}
 
 
 class NotStarted(Exception):
@@ -29,10 +29,10 @@ class Refused(Exception):
 class Daemon:
     """hydroprintd with a state folder of its own, connected to a simulator."""
 
-    def __init__(self, program: pathlib.Path, simulator: Simulator, axis: dict | None = None):
+    def __init__(self, program: pathlib.Path, simulator: Simulator, timing: drive_profile.Timing, axis: dict | None = None):
         self.folder = tempfile.TemporaryDirectory(prefix="drive-judge-")
         folder = pathlib.Path(self.folder.name)
-        (folder / "drive.toml").write_text(profile.text())
+        (folder / "drive.toml").write_text(drive_profile.text(timing))
         lines = [f"{key} = {value}" for key, value in {**AXIS, **(axis or {})}.items()]
         (folder / "hydroprintd.toml").write_text("[rig]\n" + "\n".join(lines) + "\n")
         self.lines: list[str] = []

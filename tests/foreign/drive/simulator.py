@@ -6,8 +6,9 @@ import multiprocessing
 import os
 import select
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
+import drive_profile
 import wires
 from axis import Axis
 from drive import Drive, Event
@@ -22,7 +23,7 @@ class Setup:
     """What a simulator starts with."""
     wire: str = "tcp"
     start_mm: float = 10.0
-    watchdog_s: float = 0.2
+    watchdog_s: float = drive_profile.WATCHDOG_S
     slips: bool = False
     seed: int = 1
 
@@ -36,9 +37,6 @@ class Record:
     messages_s: list[float]
     late_s: list[tuple[float, float]]  # time, and by how much the simulator itself was late
     strike: wires.Strike | None
-    mode: str = "rest"
-    fault: Fault | None = None
-    hear_errors: int = field(default=0)
 
 
 class Simulator:
@@ -87,6 +85,7 @@ def serve(setup: Setup, pipe: "multiprocessing.connection.Connection") -> None:
     pipe.send(wire.endpoint)
     with contextlib.suppress(EOFError, KeyboardInterrupt):
         Loop(drive, wire, pipe).run()
+    wire.close()
 
 
 class Loop:
@@ -131,8 +130,7 @@ class Loop:
         elif what == "strike":
             self.wire.strike = wires.Strike(values[0], drive.now_s + values[1])
         elif what == "record":
-            answer = Record(drive.now_s, drive.events, drive.trace, drive.messages_s, self.late_s, self.wire.strike,
-                            drive.mode, drive.fault)
+            answer = Record(drive.now_s, drive.events, drive.trace, drive.messages_s, self.late_s, self.wire.strike)
         elif what == "clear":
             drive.events, drive.trace, drive.messages_s, self.late_s, self.wire.strike = [], [], [], [], None
         elif what == "end":

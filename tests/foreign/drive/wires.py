@@ -7,7 +7,8 @@ import struct
 import tty
 from dataclasses import dataclass, field
 
-from drive import Drive, NoRegister
+from drive import Drive
+from registers import NoRegister
 
 UNIT = 7
 READS, WRITES = (3, 4), (6, 16)
@@ -136,7 +137,12 @@ class Wire:
             channel.waiting.append(Outgoing(due_s, data))
 
     def drop(self, channel: Channel) -> None:
-        """The power is off."""
+        """The power is off, or the client is gone. A serial line stays."""
+
+    def close(self) -> None:
+        """Closes all files."""
+        for channel in list(self.channels):
+            self.drop(channel)
 
 
 class TcpWire(Wire):
@@ -150,6 +156,10 @@ class TcpWire(Wire):
     @property
     def endpoint(self) -> str:
         return f"tcp:127.0.0.1:{self.listener.getsockname()[1]}"
+
+    def close(self) -> None:
+        super().close()
+        self.listener.close()
 
     def accept(self) -> None:
         client, _ = self.listener.accept()
@@ -189,6 +199,10 @@ class RtuWire(Wire):
     @property
     def endpoint(self) -> str:
         return f"rtu:{os.ttyname(self.slave)}?baud=115200&parity=E&stop=1"
+
+    def close(self) -> None:
+        os.close(self.channels[0].file)
+        os.close(self.slave)
 
     def take(self, channel: Channel) -> bytes | None:
         size = request_size(channel.received)
