@@ -43,7 +43,7 @@ class Axis:
 
 
 def braking_speed(distance_mm: float, velocity: float, acceleration: float) -> float:
-    """Speed v after the next step from which the axis can still brake: v^2 / 2a = distance - (velocity + v) / 2 STEP_S."""
+    """Speed v after the next step from which it can brake: v^2 / 2a = distance - (velocity + v) / 2 STEP_S."""
     room = STEP_S ** 2 / 4 + (2 * distance_mm - velocity * STEP_S) / acceleration
     return max(0.0, acceleration * (math.sqrt(max(0.0, room)) - STEP_S / 2))
 

@@ -120,7 +120,7 @@ def of_rest(row: Row, outcome: Outcome) -> Claim:
 def of_end(row: Row, outcome: Outcome) -> list[Claim]:
     last = outcome.sights[-1]
     out = [Claim("cause", last.cause in row.causes, last.cause or "none", " or ".join(row.causes)),
-           Claim("state", last.state == row.final, last.state, row.final),
+           Claim("state", last.state in row.final, last.state, " or ".join(row.final)),
            Claim("homed afterwards", not last.homed, str(last.homed), "False")]
     if row.state not in ("rest", "unhomed"):
         # A motion that was ordered to stop may count as stopped.

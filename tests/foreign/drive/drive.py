@@ -1,5 +1,5 @@
-"""A drive like those of CiA 402 with its axis: state machine, modes, registers, watchdog, faults. It has no input or output
-of its own: time and messages are arguments, so that its behaviour can be compared with closed forms."""
+"""A drive like those of CiA 402 with its axis: state machine, modes, registers, watchdog, faults. It has no input or
+output of its own: time and messages are arguments, so that its behaviour can be compared with closed forms."""
 from __future__ import annotations
 
 import math
@@ -7,12 +7,9 @@ import random
 from dataclasses import dataclass
 
 import faults
+import registers as reg
 from axis import STEP_S, Axis
-from registers import (ACCELERATION, CIA_402, CONTROL, COUNTS_PER_MM, COUNTS_PER_MM_PER_S, COUNTS_PER_MM_PER_S2, DEVICE_TYPE,
-                       ERROR, HOME_SWITCH, HOMED, HOMING, HOMING_ATTAINED, INPUTS, MODE, MOVING, POSITION, POSITIVE_END,
-                       PRODUCT, PRODUCT_ID, PROFILE_POSITION, PROFILE_VELOCITY, QUICK_STOP, RESERVED, RESERVED_WORDS,
-                       SHOWN_PER_MM_PER_S, SPEED, STATES, STATUS, TARGET, TARGET_VELOCITY, TORQUE_OFF, VELOCITY, VENDOR,
-                       VENDOR_ID, WATCHDOG_ACTION, WATCHDOG_TIME, NoRegister, number_of, words_of)
+from registers import NoRegister, number_of, words_of
 
 HOME_SPEED, HOME_SLOW, HOME_ACCELERATION = 15.0, 2.0, 200.0
 STOP_DECELERATION, RUN_ACCELERATION = 250.0, 1000.0
@@ -32,7 +29,7 @@ class Drive:
     def __init__(self, axis: Axis, now_s: float = 0.0, seed: int = 1, watchdog_s: float = 0.2, slips: bool = False):
         self.axis, self.now_s, self.random, self.fault = axis, now_s, random.Random(seed), faults.NONE
         self.slips = slips  # the home switch and the hard ends do not work
-        self.watchdog_ms, self.watchdog_action = round(1000 * watchdog_s), QUICK_STOP
+        self.watchdog_ms, self.watchdog_action = round(1000 * watchdog_s), reg.QUICK_STOP
         self.events: list[Event] = []
         self.trace: list[tuple[float, float, float, float]] = []  # time, position, velocity, reported position
         self.messages_s: list[float] = []
@@ -47,7 +44,7 @@ class Drive:
         """As after its power was off: disabled, without a home position."""
         self.state, self.control, self.error, self.homed, self.attained = "disabled", 0, 0, False, False
         self.offset_mm = self.axis.position_mm
-        self.setting = {MODE: [0], TARGET: [0, 0], SPEED: [0, 0], ACCELERATION: [0, 0], TARGET_VELOCITY: [0, 0]}
+        self.setting = {reg.MODE: [0], reg.TARGET: [0, 0], reg.SPEED: [0, 0], reg.ACCELERATION: [0, 0], reg.TARGET_VELOCITY: [0, 0]}
         self.mode, self.target_mm, self.speed, self.phase = "rest", 0.0, 0.0, ""
         self.acceleration, self.last_message_s = HOME_ACCELERATION, None
         self.shown: dict[str, float] = {}  # values of registers that stand still
@@ -79,7 +76,7 @@ class Drive:
     def supervise(self) -> None:
         """The watchdog: without messages the axis stops and the drive is in the state fault."""
         if (self.state == "enabled" and self.last_message_s is not None and self.watchdog_ms
-                and self.now_s - self.last_message_s > self.watchdog_ms / 1000 and self.watchdog_action == QUICK_STOP):
+                and self.now_s - self.last_message_s > self.watchdog_ms / 1000 and self.watchdog_action == reg.QUICK_STOP):
             self.note("watchdog")
             self.fail(COMMUNICATION_LOST)
 
@@ -89,7 +86,7 @@ class Drive:
 
     def end_motion(self) -> None:
         """Brakes; the velocity of a jog is forgotten."""
-        self.mode, self.phase, self.setting[TARGET_VELOCITY] = "rest", "", [0, 0]
+        self.mode, self.phase, self.setting[reg.TARGET_VELOCITY] = "rest", "", [0, 0]
         self.fault.effects.pop("run", None)
 
     def move(self) -> None:
@@ -203,21 +200,22 @@ class Drive:
 
     def words(self) -> dict[int, int]:
         """All registers; the encoder is one count unsteady."""
-        velocity, unsteady = self.reported_velocity(), 0 if "position" in self.shown else self.random.choice((-1, 0, 0, 1))
-        lists = {VENDOR: [VENDOR_ID], PRODUCT: [PRODUCT_ID], WATCHDOG_TIME: words_of(self.watchdog_ms),
-                 WATCHDOG_ACTION: [self.watchdog_action], DEVICE_TYPE: [CIA_402], STATUS: [self.status()],
-                 ERROR: [self.error], POSITION: words_of(COUNTS_PER_MM * self.reported_mm() + unsteady),
-                 VELOCITY: words_of(SHOWN_PER_MM_PER_S * velocity), INPUTS: [self.inputs()],
-                 RESERVED: [0] * RESERVED_WORDS, CONTROL: [self.control], **self.setting}
+        velocity = self.reported_velocity()
+        unsteady = 0 if "position" in self.shown else self.random.choice((-1, 0, 0, 1))
+        lists = {reg.VENDOR: [reg.VENDOR_ID], reg.PRODUCT: [reg.PRODUCT_ID], reg.WATCHDOG_TIME: words_of(self.watchdog_ms),
+                 reg.WATCHDOG_ACTION: [self.watchdog_action], reg.DEVICE_TYPE: [reg.CIA_402], reg.STATUS: [self.status()],
+                 reg.ERROR: [self.error], reg.POSITION: words_of(reg.COUNTS_PER_MM * self.reported_mm() + unsteady),
+                 reg.VELOCITY: words_of(reg.SHOWN_PER_MM_PER_S * velocity), reg.INPUTS: [self.inputs()],
+                 reg.RESERVED: [0] * reg.RESERVED_WORDS, reg.CONTROL: [self.control], **self.setting}
         return {address + i: word for address, words in lists.items() for i, word in enumerate(words)}
 
     def status(self) -> int:
         moves = abs(self.reported_velocity()) > SHOWN_AS_MOVING or self.mode != "rest"
-        return (STATES[self.state] | MOVING * moves | HOMING_ATTAINED * self.attained | HOMED * self.homed)
+        return (reg.STATES[self.state] | reg.MOVING * moves | reg.HOMING_ATTAINED * self.attained | reg.HOMED * self.homed)
 
     def inputs(self) -> int:
-        return (POSITIVE_END * self.end_switch | HOME_SWITCH * (self.axis.home_switch and not self.slips)
-                | TORQUE_OFF * self.button)
+        return (reg.POSITIVE_END * self.end_switch | reg.HOME_SWITCH * (self.axis.home_switch and not self.slips)
+                | reg.TORQUE_OFF * self.button)
 
     def heard(self) -> None:
         """Any valid message restarts the watchdog."""
@@ -226,7 +224,8 @@ class Drive:
 
     def write(self, address: int, values: list[int]) -> None:
         """Writes settings, then carries out the control word if it is among them."""
-        known = {WATCHDOG_TIME: 2, WATCHDOG_ACTION: 1, CONTROL: 1, **{key: len(old) for key, old in self.setting.items()}}
+        known = {reg.WATCHDOG_TIME: 2, reg.WATCHDOG_ACTION: 1, reg.CONTROL: 1}
+        known.update({key: len(old) for key, old in self.setting.items()})
         at = address
         while at < address + len(values):
             size = known.get(at)
@@ -237,11 +236,11 @@ class Drive:
             at += size
 
     def put(self, address: int, words: list[int]) -> None:
-        if address == WATCHDOG_TIME:
+        if address == reg.WATCHDOG_TIME:
             self.watchdog_ms = number_of(words)
-        elif address == WATCHDOG_ACTION:
+        elif address == reg.WATCHDOG_ACTION:
             self.watchdog_action = words[0]
-        elif address == CONTROL:
+        elif address == reg.CONTROL:
             before, self.control = self.control, words[0]
             self.command(words[0], rising=words[0] & ~before)
         else:
@@ -278,13 +277,13 @@ class Drive:
 
     def start(self, rising: int) -> None:
         """Bit 4 starts a move or homing when it rises; a jog follows its velocity at once."""
-        mode, velocity = self.setting[MODE][0], number_of(self.setting[TARGET_VELOCITY])
-        if mode == PROFILE_VELOCITY and velocity:
-            self.begin("jog", velocity / COUNTS_PER_MM_PER_S)
-        elif mode == PROFILE_POSITION and rising & 0x10:
-            self.begin("move", number_of(self.setting[SPEED]) / -COUNTS_PER_MM_PER_S)
-            self.target_mm = number_of(self.setting[TARGET]) / COUNTS_PER_MM + self.offset_mm
-        elif mode == HOMING and rising & 0x10:
+        mode, velocity = self.setting[reg.MODE][0], number_of(self.setting[reg.TARGET_VELOCITY])
+        if mode == reg.PROFILE_VELOCITY and velocity:
+            self.begin("jog", velocity / reg.COUNTS_PER_MM_PER_S)
+        elif mode == reg.PROFILE_POSITION and rising & 0x10:
+            self.begin("move", number_of(self.setting[reg.SPEED]) / -reg.COUNTS_PER_MM_PER_S)
+            self.target_mm = number_of(self.setting[reg.TARGET]) / reg.COUNTS_PER_MM + self.offset_mm
+        elif mode == reg.HOMING and rising & 0x10:
             self.begin("home", HOME_SPEED)
             self.phase, self.begin_mm = "search", self.axis.position_mm
             if "stale" in self.fault.effects:
@@ -298,4 +297,4 @@ class Drive:
         if mode != "jog" or self.mode != "jog":
             self.note(f"start {mode}")
         self.mode, self.speed = mode, speed
-        self.acceleration = number_of(self.setting[ACCELERATION]) / COUNTS_PER_MM_PER_S2
+        self.acceleration = number_of(self.setting[reg.ACCELERATION]) / reg.COUNTS_PER_MM_PER_S2

@@ -31,7 +31,8 @@ def bit(address: int, mask: int) -> str:
 
 
 def request(address: int, *values: object) -> str:
-    return f"{{ address = {address}, values = [{', '.join(str(v) if isinstance(v, int) else repr(v) for v in values)}] }}"
+    words = ", ".join(str(value) if isinstance(value, int) else f'"{value}"' for value in values)
+    return f"{{ address = {address}, values = [{words}] }}"
 
 
 def text(timing: Timing = Timing()) -> str:

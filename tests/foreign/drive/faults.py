@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 #   run: the axis moves at this speed, in mm/s, relative to the ordered direction (at rest: down)
 #   run_mm: only for this distance            jam: the axis stands still at once
 #   freeze_position: the register keeps its value
-#   freeze_velocity: the register shows 0; with `kept` it keeps its value, and the fault counts when the axis stands still
+#   freeze_velocity: the register shows 0; with `kept` it keeps its value, and the fault counts when the axis is at rest
 #   jump: the reported position jumps by so much, in mm
 #   deaf: stops are acknowledged and ignored
 #   stale, far: homing ends at once; after 10 mm

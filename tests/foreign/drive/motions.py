@@ -129,14 +129,15 @@ class Trial:
         self.place_mm = 0.0
 
 
-def judge(wire: str, bad: bool, options: argparse.Namespace) -> list[Claim]:
-    draw, timing = random.Random(f"{options.seed} {wire} {bad}"), Timing(options.response_timeout_s, options.worst_delay_s)
+def judge(wire: str, bad: bool, count: int, options: argparse.Namespace) -> list[Claim]:
+    draw = random.Random(f"{options.seed} {wire} {bad}")
+    timing = Timing(options.response_timeout_s, options.worst_delay_s)
     tally = Tally(collections.Counter(), [], collections.Counter())
     with Simulator(Setup(wire, seed=options.seed)) as simulator, Daemon(options.daemon, simulator, timing) as daemon:
         operator = Operator(daemon)
         operator.prepare()
         trial = Trial(operator, simulator, draw)
-        for number in range(options.motions):
+        for number in range(count):
             simulator.clear()
             motion = draw.choices(list(KINDS), list(KINDS.values()))[0]
             kind = wires.BAD[number % len(wires.BAD)] if bad else None

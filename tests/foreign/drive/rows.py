@@ -1,4 +1,4 @@
-"""The table of faults and states: what goes wrong in which state of the rig, and what the daemon has to say about it."""
+"""The table of faults and states: what goes wrong in which state of the rig, and which causes are true."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ class Row:
     watched_s: float = 4.0  # how long the judge waits for the daemon
     start_mm: float = 10.0
     target_mm: float = 150.0
-    final: str = "FAULT"
+    final: tuple[str, ...] = ("FAULT",)
     slips: bool = False
     axis: dict = field(default_factory=dict)
 
@@ -54,7 +54,8 @@ ROWS = [
         (UNEXPECTED, INCONSISTENT, JUMPED)),
     Row("rest-runaway-position-frozen", REST, {"run": 25, "freeze_position": True}, (UNEXPECTED, INCONSISTENT)),
     Row("rest-drift", REST, {"run": 0.15}, (UNEXPECTED,), watched_s=9),
-    Row("rest-drift-velocity-frozen", REST, {"run": 0.15, "freeze_velocity": True}, (UNEXPECTED, INCONSISTENT), watched_s=9),
+    Row("rest-drift-velocity-frozen", REST, {"run": 0.15, "freeze_velocity": True}, (UNEXPECTED, INCONSISTENT),
+        watched_s=9),
     Row("rest-rezeroed", REST, {"jump": 30}, (JUMPED,)),
     Row("unhomed-runaway", UNHOMED, {"run": 25}, (UNEXPECTED,)),
 
@@ -83,15 +84,16 @@ ROWS = [
     Row("home-position-frozen", HOME, {"freeze_position": True}, (INCONSISTENT,), start_mm=60),
     Row("home-velocity-frozen", HOME, {"freeze_velocity": True}, (INCONSISTENT,), start_mm=60),
 
-    # The register keeps the speed of the move when the axis has arrived.
-    Row("move-velocity-kept", MOVE, {"freeze_velocity": True, "kept": True}, (INCONSISTENT,), target_mm=30, watched_s=6),
+    # The register keeps the speed of the move when the axis has arrived, so it never shows that the axis obeys a stop.
+    Row("move-velocity-kept", MOVE, {"freeze_velocity": True, "kept": True}, (INCONSISTENT, NOT_OBEYED), target_mm=30,
+        watched_s=6, final=("FAULT", "STOPPING")),
 
     *everywhere((JOG, MOVE), "deaf", NOT_OBEYED, {"deaf": True}),
     *everywhere((REST, JOG, MOVE), "alarm", "DRIVE_ALARM", {"alarm": 0x3210}, notice_mm=None),
     *everywhere((REST, MOVE), "restart", RESTARTED, {"off_s": 0.06}, notice_mm=None, notice_s=0.06 + NOTICE_S),
     *[Row(f"{state}-power-loss", state, {"off_s": POWER_OFF_S}, (RESTARTED, LINK_LOST), notice_mm=None,
           notice_s=STALE_S + NOTICE_S, watched_s=6) for state in (REST, MOVE)],
-    *everywhere((REST, JOG, MOVE), "stop-button", "STOP_BUTTON", {"button": True}, notice_mm=None, final="ESTOPPED"),
+    *everywhere((REST, JOG, MOVE), "stop-button", "STOP_BUTTON", {"button": True}, notice_mm=None, final=("ESTOPPED",)),
     *everywhere((JOG, MOVE), "end-switch", "END_SWITCH", {"end_switch": True}),
 ]
 NAMES = {row.name: row for row in ROWS}

@@ -244,7 +244,7 @@ def outcome(row: rows.Row, notices_after_s: float = 0.1, cause: str = "", state:
         machine.write(at.CONTROL, [0x10F])
     run(machine, 0.5)
     record = Record(machine.now_s, machine.events, machine.trace, machine.messages_s, [], None)
-    last = Sight(machine.now_s, state or row.final, cause or row.causes[0], homed, "FAILED")
+    last = Sight(machine.now_s, state or row.final[0], cause or row.causes[0], homed, "FAILED")
     return Outcome(record, [last], drive_profile.WATCHDOG_S)
 
 

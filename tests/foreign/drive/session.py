@@ -29,7 +29,8 @@ class Refused(Exception):
 class Daemon:
     """hydroprintd with a state folder of its own, connected to a simulator."""
 
-    def __init__(self, program: pathlib.Path, simulator: Simulator, timing: drive_profile.Timing, axis: dict | None = None):
+    def __init__(self, program: pathlib.Path, simulator: Simulator, timing: drive_profile.Timing,
+                 axis: dict | None = None):
         self.folder = tempfile.TemporaryDirectory(prefix="drive-judge-")
         folder = pathlib.Path(self.folder.name)
         (folder / "drive.toml").write_text(drive_profile.text(timing))
@@ -38,8 +39,8 @@ class Daemon:
         self.lines: list[str] = []
         try:
             self.process = subprocess.Popen(
-                [program, "--config", folder / "hydroprintd.toml", "--state-dir", folder / "state", "--grpc", "127.0.0.1:0",
-                 "--http", "127.0.0.1:0", "--rig", simulator.endpoint, "--rig-profile", folder / "drive.toml"],
+                [program, "--config", folder / "hydroprintd.toml", "--state-dir", folder / "state", "--grpc",
+                 "127.0.0.1:0", "--http", "127.0.0.1:0", "--rig", simulator.endpoint, "--rig-profile", folder / "drive.toml"],
                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         except OSError as error:
             raise NotStarted(str(error)) from error
