@@ -44,7 +44,8 @@ class Drive:
         """As after its power was off: disabled, without a home position."""
         self.state, self.control, self.error, self.homed, self.attained = "disabled", 0, 0, False, False
         self.offset_mm = self.axis.position_mm
-        self.setting = {reg.MODE: [0], reg.TARGET: [0, 0], reg.SPEED: [0, 0], reg.ACCELERATION: [0, 0], reg.TARGET_VELOCITY: [0, 0]}
+        self.setting = {reg.MODE: [0], **{key: [0, 0] for key in (
+            reg.TARGET, reg.SPEED, reg.ACCELERATION, reg.TARGET_VELOCITY)}}
         self.mode, self.target_mm, self.speed, self.phase = "rest", 0.0, 0.0, ""
         self.acceleration, self.last_message_s = HOME_ACCELERATION, None
         self.shown: dict[str, float] = {}  # values of registers that stand still
@@ -75,8 +76,8 @@ class Drive:
 
     def supervise(self) -> None:
         """The watchdog: without messages the axis stops and the drive is in the state fault."""
-        if (self.state == "enabled" and self.last_message_s is not None and self.watchdog_ms
-                and self.now_s - self.last_message_s > self.watchdog_ms / 1000 and self.watchdog_action == reg.QUICK_STOP):
+        acts = self.state == "enabled" and self.watchdog_ms and self.watchdog_action == reg.QUICK_STOP
+        if acts and self.last_message_s is not None and self.now_s - self.last_message_s > self.watchdog_ms / 1000:
             self.note("watchdog")
             self.fail(COMMUNICATION_LOST)
 
@@ -202,8 +203,9 @@ class Drive:
         """All registers; the encoder is one count unsteady."""
         velocity = self.reported_velocity()
         unsteady = 0 if "position" in self.shown else self.random.choice((-1, 0, 0, 1))
-        lists = {reg.VENDOR: [reg.VENDOR_ID], reg.PRODUCT: [reg.PRODUCT_ID], reg.WATCHDOG_TIME: words_of(self.watchdog_ms),
-                 reg.WATCHDOG_ACTION: [self.watchdog_action], reg.DEVICE_TYPE: [reg.CIA_402], reg.STATUS: [self.status()],
+        lists = {reg.VENDOR: [reg.VENDOR_ID], reg.PRODUCT: [reg.PRODUCT_ID],
+                 reg.WATCHDOG_TIME: words_of(self.watchdog_ms), reg.WATCHDOG_ACTION: [self.watchdog_action],
+                 reg.DEVICE_TYPE: [reg.CIA_402], reg.STATUS: [self.status()],
                  reg.ERROR: [self.error], reg.POSITION: words_of(reg.COUNTS_PER_MM * self.reported_mm() + unsteady),
                  reg.VELOCITY: words_of(reg.SHOWN_PER_MM_PER_S * velocity), reg.INPUTS: [self.inputs()],
                  reg.RESERVED: [0] * reg.RESERVED_WORDS, reg.CONTROL: [self.control], **self.setting}
@@ -211,7 +213,8 @@ class Drive:
 
     def status(self) -> int:
         moves = abs(self.reported_velocity()) > SHOWN_AS_MOVING or self.mode != "rest"
-        return (reg.STATES[self.state] | reg.MOVING * moves | reg.HOMING_ATTAINED * self.attained | reg.HOMED * self.homed)
+        return (reg.STATES[self.state] | reg.MOVING * moves | reg.HOMING_ATTAINED * self.attained
+                | reg.HOMED * self.homed)
 
     def inputs(self) -> int:
         return (reg.POSITIVE_END * self.end_switch | reg.HOME_SWITCH * (self.axis.home_switch and not self.slips)

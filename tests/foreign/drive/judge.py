@@ -34,7 +34,8 @@ def judge_row(name: str, wire: str, options: argparse.Namespace) -> list[Claim]:
 
 
 def show(title: str, found: list[Claim]) -> bool:
-    print("\n".join(claim.line(title) for claim in found), flush=True)
+    sys.stdout.write("".join(claim.line(title) + "\n" for claim in found))  # at once, because of the other wire's thread
+    sys.stdout.flush()
     return all(claim.holds for claim in found)
 
 

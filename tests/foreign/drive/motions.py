@@ -142,13 +142,16 @@ def judge(wire: str, bad: bool, count: int, options: argparse.Namespace) -> list
             motion = draw.choices(list(KINDS), list(KINDS.values()))[0]
             kind = wires.BAD[number % len(wires.BAD)] if bad else None
             failure = trial.run(motion, kind)
-            struck = simulator.record().strike
+            record = simulator.record()
+            struck = record.strike
             what = f"{kind} reply" if kind else motion
             if kind and (struck is None or struck.hit_s is None):
                 what = f"motion without its {kind} reply"
             tally.tried[what] += 1
             tally.done[what] += not failure
             if failure:
-                tally.failures.append(f"{number + 1}: {motion}{f', {what}' if kind else ''}: {failure}")
+                late_s = max((late for _, late in record.late_s), default=0.0)
+                tally.failures.append(f"{number + 1}: {motion}{f', {what}' if kind else ''}: {failure}; the simulator "
+                                      f"itself was up to {late_s:.3f} s late")
                 trial.recover()
     return tally.claims()

@@ -60,19 +60,21 @@ ROWS = [
     Row("unhomed-runaway", UNHOMED, {"run": 25}, (UNEXPECTED,)),
 
     Row("jog-runaway", JOG, {"run": 25}, (OVERSPEED,)),
+    Row("jog-twice-as-fast", JOG, {"run": 2 * JOG_SPEED}, (OVERSPEED,)),
     Row("jog-runaway-deaf", JOG, {"run": 25, "deaf": True}, (OVERSPEED, NOT_OBEYED)),
-    Row("jog-wrong-way", JOG, {"run": -5}, ("WRONG_DIRECTION",)),
+    Row("jog-wrong-way", JOG, {"run": -JOG_SPEED}, ("WRONG_DIRECTION",)),
     still("jog-stall", JOG, (FOLLOWING,), {"jam": True}),
 
     Row("home-runaway", HOME, {"run": 120}, (OVERSPEED,), start_mm=150, after_s=0.3),
     still("home-stale", HOME, (HOMING_FAILED,), {"stale": True}, start_mm=80, notice_s=1.0),
     still("home-far", HOME, (HOMING_FAILED,), {"far": True}, start_mm=90, after_s=0.05, notice_s=NOTICE_S),
-    # From the lower end to the switch there are 55 mm. Beyond them, no switch can follow.
-    Row("home-endless", HOME, {"endless": 55.0}, (HOMING_FAILED,), slips=True, after_s=0.05, watched_s=9,
-        axis={"end_high_mm": 55.0}, notice_mm=10.0),
+    # The ends are 60 mm apart, so after 60 mm no switch can follow. 13 mm more, the distance kept from the ends, are allowed.
+    Row("home-endless", HOME, {"endless": 60.0}, (HOMING_FAILED,), slips=True, after_s=0.05, watched_s=9,
+        axis={"end_high_mm": 55.0, "keep_out_mm": 13.0}, notice_mm=13.0 + NOTICE_MM),
 
     still("move-stall", MOVE, (FOLLOWING,), {"jam": True}),
     still("dip-stall", DIP, (FOLLOWING,), {"jam": True}),
+    Row("move-wrong-way", MOVE, {"run": -MOVE_SPEED}, (FOLLOWING, "WRONG_DIRECTION")),
     Row("move-overspeed", MOVE, {"run": 25}, (OVERSPEED, FOLLOWING)),
     Row("dip-overspeed", DIP, {"run": 25}, (OVERSPEED, FOLLOWING)),
 

@@ -40,7 +40,8 @@ class Daemon:
         try:
             self.process = subprocess.Popen(
                 [program, "--config", folder / "hydroprintd.toml", "--state-dir", folder / "state", "--grpc",
-                 "127.0.0.1:0", "--http", "127.0.0.1:0", "--rig", simulator.endpoint, "--rig-profile", folder / "drive.toml"],
+                 "127.0.0.1:0", "--http", "127.0.0.1:0", "--rig", simulator.endpoint, "--rig-profile",
+                 folder / "drive.toml"],
                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         except OSError as error:
             raise NotStarted(str(error)) from error
