@@ -34,7 +34,8 @@ def judge_row(name: str, wire: str, options: argparse.Namespace) -> list[Claim]:
 
 
 def show(title: str, found: list[Claim]) -> bool:
-    sys.stdout.write("".join(claim.line(title) + "\n" for claim in found))  # at once, because of the other wire's thread
+    # In one piece, because the thread of the other wire writes, too.
+    sys.stdout.write("".join(claim.line(title) + "\n" for claim in found))
     sys.stdout.flush()
     return all(claim.holds for claim in found)
 

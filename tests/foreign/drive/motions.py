@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import wires
 from axis import move_time_s
 from claims import Claim
-from drive import HOME_ACCELERATION
+from drive import HOME_ACCELERATION, HOME_SPEED
 from drive_profile import Timing
 from session import Daemon, Operator, Refused
 from simulator import Setup, Simulator
@@ -18,6 +18,7 @@ from simulator import Setup, Simulator
 KINDS = {"short move": 6, "long move": 1, "jog": 5, "changed jog": 4, "home": 2, "dip": 1, "arm": 1}
 LOW_MM, HIGH_MM, NEAR_MM = 9.0, 70.0, 30.0  # of the places moved to
 ARRIVED_MM = 0.15
+STOOD_STILL_S, EXCUSED_SHARE = 0.05, 0.02  # the simulator has real-time priority, so such a delay is the machine's
 AFTERMATH_S = 0.3  # in which a bad reply at the end of a motion still shows
 SETTLED = ("IDLE", "FAULT", "ESTOPPED", "OFFLINE", "DISARMED", "UNHOMED")
 
@@ -28,11 +29,22 @@ class Tally:
     done: collections.Counter
     failures: list[str]
     tried: collections.Counter
+    excused: int = 0  # failures while the machine stood still
+
+    def count(self, what: str, failure: str, late_s: float) -> None:
+        if failure and late_s > STOOD_STILL_S:
+            self.excused += 1
+            return
+        self.tried[what] += 1
+        self.done[what] += not failure
 
     def claims(self) -> list[Claim]:
-        return [Claim(f"{what}, as ordered", self.done[what] == count, f"{self.done[what]} of {count}", "all")
-                for what, count in sorted(self.tried.items())] + [
-            Claim("motion", False, failure, "as ordered") for failure in self.failures]
+        most = max(1, round(EXCUSED_SHARE * (self.excused + self.tried.total())))
+        return [Claim("failures not counted, because the simulator itself stood still", self.excused <= most,
+                      str(self.excused), f"at most {most}"),
+                *[Claim(f"{what}, as ordered", self.done[what] == count, f"{self.done[what]} of {count}", "all")
+                  for what, count in sorted(self.tried.items())],
+                *[Claim("motion", False, failure, "as ordered") for failure in self.failures]]
 
 
 class Trial:
@@ -71,11 +83,14 @@ class Trial:
         return f"{rig.get('state')} {rig.get('cause')}, motion {last.get('outcome')} {last.get('cause', '')}".strip()
 
     def home(self, again: bool, bad: str | None) -> str:
+        if self.place_mm < LOW_MM:  # homing from its end would be too short to be seen without one reply
+            self.operator.move(self.draw.uniform(LOW_MM, NEAR_MM), 20)
+            self.simulator.clear()
         if again:
             self.operator.command("disarm")
             self.operator.command("arm")
         self.operator.command("home")
-        self.strike(bad, self.place_mm / 15)
+        self.strike(bad, self.operator.rig()["positionMm"] / HOME_SPEED)
         return self.ended(self.operator.wait(*SETTLED), "DONE")
 
     def move(self, far: bool, bad: str | None) -> str:
@@ -87,7 +102,7 @@ class Trial:
         self.operator.command("moveTo", positionMm=target, speedMmPerS=speed)
         self.strike(bad, move_time_s(distance, speed, HOME_ACCELERATION))
         said = self.ended(self.operator.wait(*SETTLED, seconds=20), "DONE")
-        off = abs(self.simulator.record().trace[-1][3] - target)
+        off = abs(self.simulator.record(whole=False).trace[-1][3] - target)
         return said or (f"{off:.2f} mm from its target" if off > ARRIVED_MM else "")
 
     def jog(self, changes: bool, bad: str | None) -> str:
@@ -142,16 +157,15 @@ def judge(wire: str, bad: bool, count: int, options: argparse.Namespace) -> list
             motion = draw.choices(list(KINDS), list(KINDS.values()))[0]
             kind = wires.BAD[number % len(wires.BAD)] if bad else None
             failure = trial.run(motion, kind)
-            record = simulator.record()
+            record = simulator.record(whole=False)
             struck = record.strike
             what = f"{kind} reply" if kind else motion
             if kind and (struck is None or struck.hit_s is None):
                 what = f"motion without its {kind} reply"
-            tally.tried[what] += 1
-            tally.done[what] += not failure
+            late_s = max((late for _, late in record.late_s), default=0.0)
+            tally.count(what, failure, late_s)
+            if failure and late_s <= STOOD_STILL_S:
+                tally.failures.append(f"{number + 1}: {motion}{f', {what}' if kind else ''}: {failure}")
             if failure:
-                late_s = max((late for _, late in record.late_s), default=0.0)
-                tally.failures.append(f"{number + 1}: {motion}{f', {what}' if kind else ''}: {failure}; the simulator "
-                                      f"itself was up to {late_s:.3f} s late")
                 trial.recover()
     return tally.claims()

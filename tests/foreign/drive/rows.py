@@ -68,7 +68,7 @@ ROWS = [
     Row("home-runaway", HOME, {"run": 120}, (OVERSPEED,), start_mm=150, after_s=0.3),
     still("home-stale", HOME, (HOMING_FAILED,), {"stale": True}, start_mm=80, notice_s=1.0),
     still("home-far", HOME, (HOMING_FAILED,), {"far": True}, start_mm=90, after_s=0.05, notice_s=NOTICE_S),
-    # The ends are 60 mm apart, so after 60 mm no switch can follow. 13 mm more, the distance kept from the ends, are allowed.
+    # The ends are 60 mm apart, so after 60 mm no switch can follow. The distance kept from the ends may be added.
     Row("home-endless", HOME, {"endless": 60.0}, (HOMING_FAILED,), slips=True, after_s=0.05, watched_s=9,
         axis={"end_high_mm": 55.0, "keep_out_mm": 13.0}, notice_mm=13.0 + NOTICE_MM),
 

@@ -60,8 +60,9 @@ class Simulator:
         """The first reply this time from now goes wrong."""
         self.ask("strike", kind, after_s)
 
-    def record(self) -> Record:
-        return self.ask("record")
+    def record(self, whole: bool = True) -> Record:
+        """Not the whole one: only the end of the trace and no messages, which does not detain the simulator."""
+        return self.ask("record", whole)
 
     def clear(self) -> None:
         """Forgets what was recorded so far."""
@@ -130,7 +131,8 @@ class Loop:
         elif what == "strike":
             self.wire.strike = wires.Strike(values[0], drive.now_s + values[1])
         elif what == "record":
-            answer = Record(drive.now_s, drive.events, drive.trace, drive.messages_s, self.late_s, self.wire.strike)
+            trace, messages_s = (drive.trace, drive.messages_s) if values[0] else (drive.trace[-1:], [])
+            answer = Record(drive.now_s, drive.events, trace, messages_s, self.late_s, self.wire.strike)
         elif what == "clear":
             drive.events, drive.trace, drive.messages_s, self.late_s, self.wire.strike = [], [], [], [], None
         elif what == "end":
