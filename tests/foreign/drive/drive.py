@@ -33,7 +33,7 @@ class Drive:
         self.events: list[Event] = []
         self.trace: list[tuple[float, float, float, float]] = []  # time, position, velocity, reported position
         self.messages_s: list[float] = []
-        self.off_until_s = self.silent_until_s = -math.inf
+        self.off_until_s = -math.inf
         self.button = self.end_switch = False
         self.steps, self.filtered = 0, 0.0
         if slips:
@@ -160,7 +160,6 @@ class Drive:
             self.off_until_s = self.now_s + effects["off_s"]
             self.state = "disabled"
             self.end_motion()
-        self.silent_until_s = self.now_s + effects.get("silent_s", -math.inf)
         self.end_switch = self.end_switch or "end_switch" in effects
         if "button" in effects:
             self.button = True
@@ -172,10 +171,6 @@ class Drive:
     @property
     def off(self) -> bool:
         return self.now_s < self.off_until_s
-
-    @property
-    def silent(self) -> bool:
-        return self.off or self.now_s < self.silent_until_s
 
     def hears(self) -> bool:
         """Whether it obeys stops; an ignored stop is when the fault shows."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 #   stale, far: homing ends at once; after 10 mm
 #   endless: homing does not end; the fault counts from this distance, in mm
 #   alarm: with this code                     off_s: the drive's power is off for this time
-#   silent_s: no reply for this time          button, end_switch: is pressed
+#   button, end_switch: is pressed
 Effects = dict
 
 

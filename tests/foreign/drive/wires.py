@@ -120,8 +120,7 @@ class Wire:
             started = sum(event.what.startswith("start") for event in self.drive.events)
             reply = answer(self.drive, pdu)
             starts = started != sum(event.what.startswith("start") for event in self.drive.events)
-            if not self.drive.silent:
-                self.send(channel, reply, starts)
+            self.send(channel, reply, starts)
 
     def send(self, channel: Channel, reply: bytes, starts: bool) -> None:
         now_s, kind = self.drive.now_s, None
