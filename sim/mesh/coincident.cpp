@@ -69,7 +69,10 @@ class WallFinder {
  public:
   WallFinder(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
              const std::vector<char>& both_ways)
-      : edges_(triangles, weld), both_ways_(both_ways), groups_(triangles.size()) {}
+      : edges_(triangles, weld),
+        both_ways_(both_ways),
+        groups_(triangles.size()),
+        crossing_(triangles.size()) {}
 
   /// Returns 1 for each face of a wall.
   std::vector<char> run() {
@@ -79,7 +82,8 @@ class WallFinder {
     std::vector<char> out(both_ways_.size(), 0);
     for (std::size_t t = 0; t < out.size(); ++t) {
       const std::size_t group = groups_.find(t);
-      out[t] = both_ways_[t] != 0 && has_rim[group] != 0 && fails[group] == 0 ? 1 : 0;
+      const bool is_wall = has_rim[crossing_.find(t)] != 0 && fails[group] == 0;
+      out[t] = both_ways_[t] != 0 && is_wall ? 1 : 0;
     }
     return out;
   }
@@ -91,12 +95,17 @@ class WallFinder {
         sides, [&](int side) { return both_ways_[static_cast<std::size_t>(side / 3)] == 0; }));
   }
 
-  /// Joins faces given both ways round that continue each other.
+  /// Joins faces given both ways round that continue each other, or cross.
   void join() {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const auto sides = edges_.sides(e);
-      if (sides.size() != 2 || count_plain(e) != 0) continue;
-      groups_.join(static_cast<std::size_t>(sides[0] / 3), static_cast<std::size_t>(sides[1] / 3));
+      if (count_plain(e) != 0) continue;
+      const auto first = static_cast<std::size_t>(sides[0] / 3);
+      for (const int side : sides) {
+        const auto t = static_cast<std::size_t>(side / 3);
+        if (sides.size() == 2) groups_.join(first, t);
+        crossing_.join(first, t);
+      }
     }
   }
 
@@ -110,14 +119,15 @@ class WallFinder {
     for (const int side : sides) {
       const auto t = static_cast<std::size_t>(side / 3);
       if (both_ways_[t] == 0) continue;
-      if (plain == 2) has_rim[groups_.find(t)] = 1;
+      if (plain == 2) has_rim[crossing_.find(t)] = 1;
       if (plain != 2 && !is_crossing) fails[groups_.find(t)] = 1;
     }
   }
 
   Edges edges_;
   const std::vector<char>& both_ways_;
-  Groups groups_;
+  Groups groups_;    ///< walls that continue each other
+  Groups crossing_;  ///< walls that continue each other or cross
 };
 
 }  // namespace

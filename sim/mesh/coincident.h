@@ -16,8 +16,9 @@ struct DistinctFaces {
 
 /// Merges faces that have the same three welded points, either way round: models exported
 /// "double-sided", or twice. The first of such faces is kept. Faces that are given both ways round
-/// and whose rim is on edges of two more faces each are walls between parts that touch; they are
-/// dropped altogether, which unites the parts.
+/// and whose rim is on edges of two more faces each are walls between parts that touch, and so are
+/// those that only meet such walls at their rim; they are dropped altogether, which unites the
+/// parts.
 [[nodiscard]] DistinctFaces merge_coincident(const std::vector<Eigen::Vector3i>& triangles,
                                              const std::vector<int>& weld);
 

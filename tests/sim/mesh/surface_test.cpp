@@ -296,6 +296,20 @@ TEST(MakeSurface, PartsThatTouchAreUnitedWithoutTheWallBetweenThem) {
   EXPECT_NEAR(area(four.points, four.triangles), 2 * 400 + 4 * 200, 1e-6);
 }
 
+TEST(MakeSurface, WallsThatOnlyMeetOtherWallsAreDroppedToo) {
+  // 4 x 4 x 4 boxes: the walls in the middle reach no face of the outside.
+  Model block;
+  for (int i = 0; i < 64; ++i) {
+    const Eigen::Vector3d low = 10 * Eigen::Vector3d(i % 4, i / 4 % 4, i / 16);
+    block = join(block, box(low, low + Eigen::Vector3d::Constant(10)));
+  }
+  const Surface surface = made(block);
+  EXPECT_TRUE(surface.closed);
+  EXPECT_FALSE(has_warning(surface, "coincident_faces"));
+  EXPECT_NEAR(volume(surface), 64'000, 1e-6);
+  EXPECT_NEAR(area(surface.points, surface.triangles), 6 * 1600, 1e-6);
+}
+
 /// Returns the area of the triangles that do not lie inside another part.
 double outer_area(const Surface& s) {
   double sum = 0;
