@@ -119,8 +119,8 @@ class WallFinder {
     for (const int side : sides) {
       const auto t = static_cast<std::size_t>(side / 3);
       if (both_ways_[t] == 0) continue;
-      if (plain == 2) has_rim[crossing_.find(t)] = 1;
-      if (plain != 2 && !is_crossing) fails[groups_.find(t)] = 1;
+      if (plain > 0 && plain % 2 == 0) has_rim[crossing_.find(t)] = 1;
+      if (plain % 2 != 0 || (plain == 0 && !is_crossing)) fails[groups_.find(t)] = 1;
     }
   }
 

@@ -186,6 +186,13 @@ bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, 
   return open + crowded + opposed == 0;
 }
 
+/// Returns whether parts share edges.
+bool is_crowded(const Edges& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges.sides(e).size() > 2) return true;
+  return false;
+}
+
 }  // namespace
 
 Result<Surface> make_surface(const Model& model, double max_edge_mm, const Context& context) {
@@ -242,7 +249,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   surface.source_barycentric = std::move(work.source_barycentric);
   surface.weld = std::move(work.weld);
   warn_about_size(model, surface);
-  if (orientation.shells > 1) {
+  if (orientation.shells > 1 || is_crowded(edges)) {
     HP_ASSIGN_OR_RETURN(surface.inner, inner_corners(surface, context));
   }
   context.progress("surface", 1);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "sim/base/check.h"
+#include "sim/mesh/cycles.h"
 #include "sim/mesh/patches.h"
 #include "sim/mesh/sides.h"
 
@@ -55,7 +56,9 @@ Result<Orientation> orient(const std::vector<Eigen::Vector3d>& points, const std
                            const std::vector<Eigen::Vector3i>& triangles, const Edges& edges,
                            const Context& context) {
   HP_CHECK(weld.size() == points.size());
-  Patches found = find_patches(points, weld, triangles, edges);
+  HP_ASSIGN_OR_RETURN(Patches found,
+                      unite_cycles(points, weld, triangles, edges,
+                                   find_patches(points, weld, triangles, edges), context));
   HP_ASSIGN_OR_RETURN(const std::vector<Side> sides,
                       outer_sides(points, triangles, found, context));
   Orientation out = summarize(std::move(found), sides);

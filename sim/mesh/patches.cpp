@@ -24,7 +24,7 @@ class PatchFinder {
       if (seen[first]) continue;
       Patch patch = grow(first, seen);
       follow_majority(patch);
-      measure(patch);
+      measure(patch, points_, triangles_, result_.flip, boundary_middle(patch));
       result_.patches.push_back(std::move(patch));
     }
     return std::move(result_);
@@ -101,22 +101,6 @@ class PatchFinder {
     return count > 0 ? Eigen::Vector3d(sum / count) : point(triangles_[patch.triangles[0]][0]);
   }
 
-  void measure(Patch& patch) const {
-    const Eigen::Vector3d origin = boundary_middle(patch);
-    Eigen::AlignedBox3d box;
-    for (const auto t : patch.triangles) {
-      const Eigen::Vector3d a = point(triangles_[t][0]) - origin;
-      const Eigen::Vector3d b = point(triangles_[t][1]) - origin;
-      const Eigen::Vector3d c = point(triangles_[t][2]) - origin;
-      patch.volume_mm3 += (result_.flip[t] ? -1 : 1) * a.dot(b.cross(c)) / 6;
-      patch.area_mm2 += (b - a).cross(c - a).norm() / 2;
-      for (const auto& corner : {a, b, c}) box.extend(corner);
-    }
-    if (std::abs(patch.volume_mm3) > kFlat * patch.area_mm2 * box.diagonal().norm()) return;
-    patch.is_flat = true;
-    patch.volume_mm3 = 0;
-  }
-
   const std::vector<Eigen::Vector3d>& points_;
   const std::vector<int>& weld_;
   const std::vector<Eigen::Vector3i>& triangles_;
@@ -125,6 +109,24 @@ class PatchFinder {
 };
 
 }  // namespace
+
+void measure(Patch& patch, const std::vector<Eigen::Vector3d>& points,
+             const std::vector<Eigen::Vector3i>& triangles, const std::vector<bool>& flip,
+             const Eigen::Vector3d& origin) {
+  Eigen::AlignedBox3d box;
+  for (const auto t : patch.triangles) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return points[static_cast<std::size_t>(triangles[t][k])] - origin;
+    };
+    const Eigen::Vector3d a = corner(0), b = corner(1), c = corner(2);
+    patch.volume_mm3 += (flip[t] ? -1 : 1) * a.dot(b.cross(c)) / 6;
+    patch.area_mm2 += (b - a).cross(c - a).norm() / 2;
+    for (const auto& p : {a, b, c}) box.extend(p);
+  }
+  if (std::abs(patch.volume_mm3) > kFlat * patch.area_mm2 * box.diagonal().norm()) return;
+  patch.is_flat = true;
+  patch.volume_mm3 = 0;
+}
 
 Patches find_patches(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& weld,
                      const std::vector<Eigen::Vector3i>& triangles, const Edges& edges) {

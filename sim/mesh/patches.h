@@ -9,7 +9,8 @@
 
 namespace hydroprint::mesh {
 
-/// Triangles connected across edges of exactly two faces.
+/// Triangles connected across edges of exactly two faces, or the surface of solids that share
+/// edges.
 struct Patch {
   std::vector<std::size_t> triangles;
   double area_mm2 = 0;
@@ -28,6 +29,12 @@ struct Patches {
   std::size_t inconsistent = 0;  ///< triangles to flip
   std::size_t one_sided = 0;     ///< edges whose faces cannot agree (Moebius strips)
 };
+
+/// Sets area, volume and flatness of a patch that has only triangles yet.
+/// @param origin  tip of the cone that closes an open patch
+void measure(Patch& patch, const std::vector<Eigen::Vector3d>& points,
+             const std::vector<Eigen::Vector3i>& triangles, const std::vector<bool>& flip,
+             const Eigen::Vector3d& origin);
 
 [[nodiscard]] Patches find_patches(const std::vector<Eigen::Vector3d>& points,
                                    const std::vector<int>& weld,

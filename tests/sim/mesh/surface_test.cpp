@@ -319,6 +319,39 @@ double outer_area(const Surface& s) {
   return sum;
 }
 
+/// 3 x 3 x 3 boxes. The faces of every second one are divided along their other diagonals.
+Model blocks_with_mixed_diagonals() {
+  Model block;
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d low = 10 * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9);
+    Model one = box(low, low + Eigen::Vector3d::Constant(10));
+    for (std::size_t t = 0; i % 2 == 0 && t < 12; t += 2) {
+      const Eigen::Vector3i a = one.triangles[t], b = one.triangles[t + 1];
+      one.triangles[t] = {a[0], a[1], b[2]};
+      one.triangles[t + 1] = {b[2], a[1], a[2]};
+    }
+    block = join(block, one);
+  }
+  return block;
+}
+
+TEST(MakeSurface, SolidsWhoseCommonWallsAreDividedDifferentlyStayOriented) {
+  for (const Model& given :
+       {blocks_with_mixed_diagonals(), turned(blocks_with_mixed_diagonals())}) {
+    const Surface surface = made(given);
+    EXPECT_NEAR(volume(surface), 27'000, 1e-6);
+    EXPECT_NEAR(outer_area(surface), 6 * 900, 1e-6);
+    EXPECT_FALSE(has_warning(surface, "sides_by_rays"));
+  }
+}
+
+TEST(MakeSurface, SolidsThatShareAnEdgeFaceOutwardWhicheverWayTheyAreGiven) {
+  const Model low = box({0, 0, 0}, {10, 10, 10}), high = box({10, 10, 0}, {20, 20, 10});
+  for (const Model& given : {join(low, high), join(low, turned(high)), join(turned(low), high),
+                             join(turned(low), turned(high))})
+    EXPECT_NEAR(volume(made(given)), 2000, 1e-6);
+}
+
 TEST(MakeSurface, FacesInsideAnotherPartAreInner) {
   // Two balls whose centres are a radius apart: of each, the cap beyond the middle plane is
   // outside.
