@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/mesh/edges.h"
-#include "sim/mesh/rays.h"
+#include "sim/mesh/parallel_rays.h"
 #include "sim/mesh/weld.h"
 
 namespace hydroprint::mesh {
@@ -22,56 +22,17 @@ constexpr double kJustOutside = 1e-5;
 /// The place of a corner's ray: so far from the triangle's middle towards the corner.
 constexpr double kTowardsCorner = 0.8;
 constexpr std::size_t kTrianglesAtOnce = 512;
-/// Directions of the rays. A ray that meets an edge may count it wrongly, so two of three decide.
-const std::array<Eigen::Vector3d, 3> kDirections = {Eigen::Vector3d(0.3141, 0.2718, 0.9097),
-                                                    Eigen::Vector3d(-0.8023, 0.1732, 0.5713),
-                                                    Eigen::Vector3d(0.2237, -0.9311, -0.2877)};
+
+Corners corners_of(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3i& triangle) {
+  const auto point = [&](int k) { return points[static_cast<std::size_t>(triangle[k])]; };
+  return {point(0), point(1), point(2)};
+}
 
 Corners corners_of(const Surface& surface, std::size_t t) {
-  const Eigen::Vector3i& v = surface.triangles[t];
-  return {surface.points[static_cast<std::size_t>(v[0])],
-          surface.points[static_cast<std::size_t>(v[1])],
-          surface.points[static_cast<std::size_t>(v[2])]};
+  return corners_of(surface.points, surface.triangles[t]);
 }
 
 Eigen::Vector3d normal_of(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]); }
-
-/// Returns the triangles of closed shells: those that share no edge with an open one.
-std::vector<Corners> closed_triangles(const Surface& surface) {
-  const Edges edges(surface.triangles, surface.weld);
-  Groups shells = shells_of(surface.triangles.size(), edges);
-  std::vector<char> is_open(surface.triangles.size(), 0);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges.sides(e).size() % 2 != 0)
-      is_open[shells.find(static_cast<std::size_t>(edges.sides(e)[0] / 3))] = 1;
-  }
-  std::vector<Corners> out;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (is_open[shells.find(t)] == 0) out.push_back(corners_of(surface, t));
-  return out;
-}
-
-/// Closed shells, and how often they wind around a point.
-class Windings {
- public:
-  explicit Windings(const Surface& surface) : tree_(closed_triangles(surface)) {}
-
-  [[nodiscard]] bool is_inside(const Eigen::Vector3d& p) const {
-    const bool first = winding(p, kDirections[0]) > 0, second = winding(p, kDirections[1]) > 0;
-    return first == second ? first : winding(p, kDirections[2]) > 0;
-  }
-
- private:
-  [[nodiscard]] int winding(const Eigen::Vector3d& p, const Eigen::Vector3d& direction) const {
-    std::vector<RayHit> hits;
-    tree_.find_hits(p, direction, hits);
-    int sum = 0;
-    for (const RayHit& hit : hits) sum += hit.from_behind ? 1 : -1;
-    return sum;
-  }
-
-  RayTree tree_;
-};
 
 /// Returns for each triangle whether its bounding box, widened by `margin_mm`, overlaps that of a
 /// triangle with which it shares no point. Where the surface enters another part of it, it does.
@@ -120,8 +81,25 @@ Groups groups_of_one_side(const Surface& surface, const std::vector<char>& may_m
 
 }  // namespace
 
-Result<std::vector<CornerSet>> inner_corners(const Surface& surface, const Context& context) {
-  const Windings windings(surface);
+std::vector<Corners> closed_shells(const std::vector<Eigen::Vector3d>& points,
+                                   const std::vector<Eigen::Vector3i>& triangles,
+                                   const Edges& edges) {
+  Groups shells = shells_of(triangles.size(), edges);
+  std::vector<char> is_open(triangles.size(), 0);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.sides(e).size() % 2 != 0)
+      is_open[shells.find(static_cast<std::size_t>(edges.sides(e)[0] / 3))] = 1;
+  }
+  std::vector<Corners> out;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (is_open[shells.find(t)] == 0) out.push_back(corners_of(points, triangles[t]));
+  return out;
+}
+
+Result<std::vector<CornerSet>> inner_corners(const Surface& surface,
+                                             const std::vector<Corners>& solids,
+                                             const Context& context) {
+  const ParallelRays rays(solids);
   const double outside_mm = kJustOutside * diagonal(surface.points);
   std::vector<CornerSet> out(surface.triangles.size(), 0);
   const auto corners_inside = [&](std::size_t t) {
@@ -131,7 +109,7 @@ Result<std::vector<CornerSet>> inner_corners(const Surface& surface, const Conte
     unsigned set = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d p = kTowardsCorner * c[k] + (1 - kTowardsCorner) * middle + shift;
-      if (windings.is_inside(p)) set |= 1U << k;
+      if (rays.winding(p) > 0) set |= 1U << k;
     }
     return static_cast<CornerSet>(set);
   };

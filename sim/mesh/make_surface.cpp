@@ -228,6 +228,9 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   HP_RETURN_IF_ERROR(check_cancelled(context));
 
   context.progress("surface", 0.5);
+  std::vector<Corners> solids;
+  if (orientation.shells > 1 || is_crowded(edges))
+    solids = closed_shells(work.points, work.triangles, edges);
   const auto before = work.triangles.size();
   auto subdivided = subdivide(std::move(work), max_edge_mm, kMaxSubdividedTriangles, context);
   if (!subdivided && subdivided.error().code == Code::kResourceExhausted)
@@ -249,8 +252,8 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   surface.source_barycentric = std::move(work.source_barycentric);
   surface.weld = std::move(work.weld);
   warn_about_size(model, surface);
-  if (orientation.shells > 1 || is_crowded(edges)) {
-    HP_ASSIGN_OR_RETURN(surface.inner, inner_corners(surface, context));
+  if (!solids.empty()) {
+    HP_ASSIGN_OR_RETURN(surface.inner, inner_corners(surface, solids, context));
   }
   context.progress("surface", 1);
   return surface;

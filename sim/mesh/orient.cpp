@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "sim/base/check.h"
-#include "sim/mesh/cycles.h"
 #include "sim/mesh/patches.h"
 #include "sim/mesh/sides.h"
 

@@ -9,9 +9,11 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "sim/mesh/make_surface.h"
+#include "sim/mesh/parallel_rays.h"
 #include "sim/mesh/rays.h"
 #include "sim/sample/icosphere.h"
 #include "tests/sim/mesh/files.h"
@@ -317,6 +319,40 @@ TEST(RayTree, FindsTheTrianglesThatBruteForceFinds) {
       ++next;
     }
     EXPECT_EQ(next, hits.size());
+  }
+}
+
+std::vector<Corners> corners_of(const Model& model) {
+  std::vector<Corners> out;
+  for (const auto& t : model.triangles)
+    out.push_back({model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]});
+  return out;
+}
+
+TEST(ParallelRays, CountHowOftenBallsWindAroundPoints) {
+  // Two balls that overlap, a cavity in one of them, and a tiny ball, whose triangles all lie in
+  // one place.
+  const Model left = sample::icosphere(20, 4), right = moved(left, {20, 0, 0}),
+              cavity = inside_out(sample::icosphere(5, 3)),
+              grain = moved(sample::icosphere(0.01, 4), {0, 0, 15});
+  const ParallelRays rays(corners_of(together({left, right, cavity, grain})));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const auto expect_winding = [&](const Point& p) {
+    int expected = 0;
+    for (const auto& [middle, radius, sign] :
+         {std::tuple(Point(0, 0, 0), 20.0, 1), std::tuple(Point(20, 0, 0), 20.0, 1),
+          std::tuple(Point(0, 0, 0), 5.0, -1), std::tuple(Point(0, 0, 15), 0.01, 1)}) {
+      const double r = (p - middle).norm() / radius;
+      if (std::abs(r - 1) < 0.02) return;  // between the sphere and its triangles
+      expected += r < 1 ? sign : 0;
+    }
+    EXPECT_EQ(rays.winding(p), expected) << p.transpose();
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const Point p(any(random), any(random), any(random));
+    expect_winding(45 * p);
+    expect_winding(Point(0, 0, 15) + 0.02 * p);
   }
 }
 
