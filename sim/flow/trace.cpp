@@ -27,7 +27,9 @@ using velocity::VelocityField;
 /// the short step crossed an event, where the velocity jumps.
 constexpr double kMostGrowth = 4;
 
-constexpr std::size_t kChunk = 512;  ///< points followed together
+/// Number of points followed together: the more, the closer neighbours are, but at least some
+/// chunks for each thread.
+constexpr std::size_t kLeastChunk = 512, kMostChunk = 8192, kChunks = 64;
 
 /// A point of the film, traced back through the dip.
 struct BackPath {
@@ -198,10 +200,11 @@ Result<std::vector<Vector2d>> trace_back(const DipField& dip, const std::vector<
   HP_CHECK(std::is_sorted(dip.immersion_mm.begin(), dip.immersion_mm.end()));
   std::vector<Vector2d> film_mm(landings.size());
   const std::vector<std::size_t> order = by_immersion(landings);
-  const std::size_t chunks = (order.size() + kChunk - 1) / kChunk;
+  const std::size_t chunk = std::clamp(order.size() / kChunks, kLeastChunk, kMostChunk);
+  const std::size_t chunks = (order.size() + chunk - 1) / chunk;
   HP_RETURN_IF_ERROR(parallel_for(context, stage, chunks, [&](std::size_t c) -> Status {
-    const std::size_t first = c * kChunk;
-    const std::size_t last = std::min(first + kChunk, order.size());
+    const std::size_t first = c * chunk;
+    const std::size_t last = std::min(first + chunk, order.size());
     std::vector<BackPath> paths;
     paths.reserve(last - first);
     for (std::size_t i = first; i < last; ++i) paths.push_back(path_to(dip, landings[order[i]]));
