@@ -112,14 +112,6 @@ std::vector<int> triangles_near(const Body& body, double immersion_mm,
 
 }  // namespace
 
-double area_mm2(const CrossSection& section) {
-  double sum = 0;
-  for (const Loop& loop : section) {
-    sum += (loop.is_hole ? -1 : 1) * std::abs(signed_area(loop.points_mm));
-  }
-  return sum;
-}
-
 std::vector<SectionArea> section_areas(const std::vector<Waterline>& lines) {
   std::vector<SectionArea> areas;
   areas.reserve(lines.size());

@@ -9,9 +9,6 @@
 
 namespace hydroprint::waterline {
 
-/// Returns the area of the solid, mm2.
-[[nodiscard]] double area_mm2(const CrossSection& section);
-
 /// The area of the solid at one immersion.
 struct SectionArea {
   double depth_mm = 0;  ///< immersion

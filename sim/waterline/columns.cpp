@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "sim/mesh/edges.h"
-#include "sim/mesh/groups.h"
 
 namespace hydroprint::waterline {
 namespace {
@@ -36,13 +35,7 @@ Shells find_shells(const Body& body) {
   std::vector<int> itself(body.points_mm.size());
   std::iota(itself.begin(), itself.end(), 0);
   const mesh::Edges edges(body.triangles, itself);
-  mesh::Groups groups(body.triangles.size());
-  const auto triangle_of = [](int side) { return static_cast<std::size_t>(side / 3); };
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const int side : edges.sides(e)) {
-      groups.join(triangle_of(edges.sides(e)[0]), triangle_of(side));
-    }
-  }
+  mesh::Groups groups = mesh::shells_of(body.triangles.size(), edges);
   Shells shells;
   shells.of_triangle.resize(body.triangles.size());
   for (std::size_t t = 0; t < body.triangles.size(); ++t) {
@@ -58,7 +51,7 @@ Shells find_shells(const Body& body) {
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.sides(e).size() == 2) continue;
-    shells.all[shells.of_triangle[triangle_of(edges.sides(e)[0])]].is_manifold = false;
+    shells.all[shells.of_triangle[edges.sides(e)[0] / 3]].is_manifold = false;
   }
   return shells;
 }

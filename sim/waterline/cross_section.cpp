@@ -118,6 +118,14 @@ CrossSection unite(const std::vector<Contour>& contours) {
   return section_of(region);
 }
 
+double area_mm2(const CrossSection& section) {
+  double sum = 0;
+  for (const Loop& loop : section) {
+    sum += (loop.is_hole ? -1 : 1) * std::abs(signed_area(loop.points_mm));
+  }
+  return sum;
+}
+
 bool is_inside(const CrossSection& section, const Eigen::Vector2d& p) {
   bool inside = false;
   for (const Loop& loop : section) {

@@ -30,6 +30,9 @@ inline constexpr double kLeastLoop_mm2 = 1e-3;
 /// Returns the area of a closed curve, positive if counter-clockwise, mm2.
 [[nodiscard]] double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
+/// Returns the area of the solid, mm2.
+[[nodiscard]] double area_mm2(const CrossSection& section);
+
 /// Returns true if the point lies inside the solid, by the even-odd rule.
 [[nodiscard]] bool is_inside(const CrossSection& section, const Eigen::Vector2d& point_mm);
 
