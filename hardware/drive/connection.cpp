@@ -7,11 +7,11 @@
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
-#include <sys/select.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -21,8 +21,11 @@
 namespace hydroprint::drive {
 namespace {
 
-constexpr std::size_t kTcpHeader = 6;  // bytes before the unit id
-constexpr std::size_t kCrc = 2;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kChunk = 512;
+// Bytes of the longest frame; more input than this is not waited for.
+constexpr std::size_t kLongestFrame = 256;
 
 tl::unexpected<Error> offline(const Endpoint& endpoint, const std::string& what) {
   return fail(Code::kUnavailable, "drive at " + endpoint.text() + ": " + what, "RIG_OFFLINE");
@@ -44,9 +47,6 @@ std::string serial_remedy(int error) {
       return std::string(std::strerror(error)) + ". Check the adapter";
   }
 }
-
-/// Returns false for large descriptors, which select() in libmodbus cannot watch.
-bool can_be_watched(int descriptor) { return descriptor < FD_SETSIZE; }
 
 bool wait_connected(int socket, std::chrono::milliseconds patience) {
   pollfd wait{socket, POLLOUT, 0};
@@ -83,54 +83,23 @@ int connect_socket(const Endpoint& endpoint, std::chrono::milliseconds patience)
   return -1;
 }
 
-bool is_lost(int error) {
-  switch (error) {
-    case EIO:
-    case ENXIO:
-    case ENODEV:
-    case EBADF:
-    case EPIPE:
-    case ECONNRESET:
-    case ECONNREFUSED:
-    case ENOTCONN:
-      return true;
-    default:
-      return false;
-  }
-}
-
-Connection::End end_of(int error) {
-  if (error == ETIMEDOUT) return Connection::End::kTimeout;
-  return is_lost(error) ? Connection::End::kLost : Connection::End::kDamaged;
-}
-
 }  // namespace
-
-Connection::Connection(const Endpoint& endpoint, const LinkTiming& timing, _modbus* modbus)
-    : endpoint_(endpoint), timing_(timing), modbus_(modbus) {}
 
 Connection::~Connection() {
   if (owns_) ::ioctl(lock_, TIOCNXCL);
-  modbus_close(modbus_);
-  modbus_free(modbus_);
+  if (modbus_ != nullptr) {
+    modbus_close(modbus_);
+    modbus_free(modbus_);
+  } else if (line_ >= 0) {
+    ::close(line_);
+  }
   if (lock_ >= 0) ::close(lock_);
 }
 
 Result<std::unique_ptr<Connection>> Connection::open(const Endpoint& endpoint,
                                                      const LinkTiming& timing) {
-  modbus_t* modbus = endpoint.serial ? modbus_new_rtu(endpoint.device.c_str(), endpoint.baud,
-                                                      endpoint.parity, 8, endpoint.stop_bits)
-                                     : modbus_new_tcp(endpoint.host.c_str(), endpoint.port);
-  if (modbus == nullptr)
-    return offline(endpoint, "not a valid address. Use tcp:ADDRESS:PORT or rtu:DEVICE");
-  std::unique_ptr<Connection> out(new Connection(endpoint, timing, modbus));
-  modbus_set_error_recovery(modbus, MODBUS_ERROR_RECOVERY_NONE);
-  // Without a timeout between bytes, the response timeout limits the whole reply.
-  modbus_set_byte_timeout(modbus, 0, 0);
-  HP_RETURN_IF_ERROR(endpoint.serial ? out->open_serial() : out->open_tcp());
-  if (!can_be_watched(modbus_get_socket(modbus))) {
-    return offline(endpoint, "this process has too many open files. Restart it");
-  }
+  std::unique_ptr<Connection> out(new Connection(endpoint));
+  HP_RETURN_IF_ERROR(endpoint.serial ? out->open_serial() : out->open_tcp(timing));
   return out;
 }
 
@@ -148,14 +117,11 @@ void forget_settings(int line) {
 
 }  // namespace
 
-Status Connection::open_tcp() {
-  const int socket = connect_socket(endpoint_, timing_.connect);
-  if (socket < 0) {
-    return offline(endpoint_,
-                   std::string(std::strerror(errno)) + ". Check the power and the address");
-  }
-  modbus_set_socket(modbus_, socket);
-  return {};
+Status Connection::open_tcp(const LinkTiming& timing) {
+  line_ = connect_socket(endpoint_, timing.connect);
+  if (line_ >= 0) return {};
+  return offline(endpoint_,
+                 std::string(std::strerror(errno)) + ". Check the power and the address");
 }
 
 Status Connection::open_serial() {
@@ -165,53 +131,85 @@ Status Connection::open_serial() {
   if (::isatty(lock_) == 0) return offline(endpoint_, "not a serial line. Correct the path");
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) return offline(endpoint_, serial_remedy(errno));
   forget_settings(lock_);
-  if (modbus_connect(modbus_) != 0) return offline(endpoint_, serial_remedy(errno));
+  modbus_ = modbus_new_rtu(endpoint_.device.c_str(), endpoint_.baud, endpoint_.parity, 8,
+                           endpoint_.stop_bits);
+  if (modbus_ == nullptr || modbus_connect(modbus_) != 0) {
+    return offline(endpoint_, serial_remedy(errno));
+  }
+  line_ = modbus_get_socket(modbus_);
   owns_ = ::ioctl(lock_, TIOCEXCL) == 0;
   return {};
 }
 
-Connection::End Connection::exchange(int unit, const std::vector<std::uint8_t>& request,
-                                     std::size_t reply_bytes, std::vector<std::uint8_t>& reply,
-                                     std::string& cause) {
-  std::chrono::microseconds patience = timing_.response;
-  if (endpoint_.serial) {
-    patience += std::chrono::duration_cast<std::chrono::microseconds>(
-        wire_time(endpoint_, request.size() + reply_bytes + 2 * kCrc) + 2 * frame_gap(endpoint_));
+/// Waits for an event; false if there is none until the given time.
+bool Connection::wait(short events, TimePoint until) const {
+  for (;;) {
+    const auto left = std::max(until - Clock::now(), Clock::duration::zero());
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+    const timespec limit{static_cast<time_t>(seconds.count()),
+                         static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
+    pollfd wanted{line_, events, 0};
+    const int ready = ::ppoll(&wanted, 1, &limit, nullptr);
+    if (ready >= 0 || errno != EINTR) return ready != 0;
   }
-  modbus_set_response_timeout(modbus_, static_cast<std::uint32_t>(patience.count() / 1'000'000),
-                              static_cast<std::uint32_t>(patience.count() % 1'000'000));
-  modbus_set_slave(modbus_, unit);
-  if (modbus_flush(modbus_) < 0 ||
-      modbus_send_raw_request(modbus_, request.data(), static_cast<int>(request.size())) < 0) {
-    cause = modbus_strerror(errno);
-    return End::kLost;
-  }
-  return receive(reply, cause);
 }
 
-Connection::End Connection::receive(std::vector<std::uint8_t>& reply, std::string& cause) {
-  std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> adu{};
-  const int got = modbus_receive_confirmation(modbus_, adu.data());
-  if (got < 0) {
-    cause = modbus_strerror(errno);
-    return end_of(errno);
+// On a serial line, input that is pending may continue, so it is discarded up to a gap.
+bool Connection::discard_input() {
+  const auto gap = endpoint_.serial ? frame_gap(endpoint_) : std::chrono::nanoseconds(0);
+  const auto end = Clock::now() + (endpoint_.serial ? wire_time(endpoint_, kLongestFrame) : gap);
+  std::array<std::uint8_t, kChunk> chunk{};
+  bool any = false;
+  while (::read(line_, chunk.data(), chunk.size()) > 0 ||
+         (any && wait(POLLIN, Clock::now() + gap) && Clock::now() < end)) {
+    any = true;
   }
-  const std::size_t size = static_cast<std::size_t>(got);
-  const std::size_t head = endpoint_.serial ? 0 : kTcpHeader;
-  const std::size_t tail = endpoint_.serial ? kCrc : 0;
-  if (size < head + tail + 2) {  // 0: libmodbus dropped the reply of another unit
-    cause = "reply of another unit";
-    return End::kDamaged;
+  return any;
+}
+
+bool Connection::send(const std::vector<std::uint8_t>& bytes, TimePoint until) const {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const void* const rest = bytes.data() + done;
+    const std::size_t size = bytes.size() - done;
+    const ssize_t sent =
+        endpoint_.serial ? ::write(line_, rest, size) : ::send(line_, rest, size, MSG_NOSIGNAL);
+    if (sent > 0) {
+      done += static_cast<std::size_t>(sent);
+    } else if ((errno != EAGAIN && errno != EINTR) || !wait(POLLOUT, until)) {
+      return false;
+    }
   }
-  const bool is_framed =
-      endpoint_.serial || (adu[0] == 0 && adu[1] == 0 && adu[2] == 0 && adu[3] == 0 &&
-                           (adu[4] << 8U | adu[5]) == static_cast<int>(size - head));
-  if (!is_framed) {
-    cause = "wrong header";
-    return End::kDamaged;
+  return true;
+}
+
+Connection::End Connection::exchange(ReplyReader& reader, std::chrono::nanoseconds patience,
+                                     std::string& cause) {
+  const TimePoint end = Clock::now() + patience;
+  if (!send(reader.sent(), end)) {
+    cause = std::strerror(errno);
+    return End::kLost;
   }
-  reply.assign(adu.begin() + head, adu.begin() + static_cast<std::ptrdiff_t>(size - tail));
-  return End::kReply;
+  std::array<std::uint8_t, kChunk> chunk{};
+  while (wait(POLLIN, end)) {
+    const ssize_t got = ::read(line_, chunk.data(), chunk.size());
+    if (got < 0 && (errno == EAGAIN || errno == EINTR)) continue;
+    if (got <= 0) {
+      cause = got == 0 ? "closed by the other end" : std::strerror(errno);
+      return End::kLost;
+    }
+    switch (reader.add({chunk.data(), static_cast<std::size_t>(got)})) {
+      case ReplyReader::Found::kReply:
+        return End::kReply;
+      case ReplyReader::Found::kDamaged:
+        return End::kDamaged;
+      case ReplyReader::Found::kEcho:
+        return End::kEcho;
+      case ReplyReader::Found::kNothing:
+        break;
+    }
+  }
+  return End::kTimeout;
 }
 
 }  // namespace hydroprint::drive

@@ -1,15 +1,21 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <optional>
+#include <string>
 
+#include "hardware/drive/reply_reader.h"
 #include "hardware/drive/transaction.h"
 
 struct _modbus;
 
 namespace hydroprint::drive {
 
-/// An open libmodbus connection, closed by the destructor. Not thread-safe.
+/// An open connection, closed by the destructor. libmodbus opens serial lines; the frames are this
+/// folder's own (frame.h), because libmodbus sends every request with transaction id 0 and can
+/// neither drop an echo nor accept another unit. Not thread-safe.
 class Connection {
  public:
   /// Opens a connection within timing.connect; locks a serial line for this process. Returns
@@ -22,28 +28,34 @@ class Connection {
 
   /// The result of an exchange.
   enum class End {
-    kReply,    ///< a correctly framed reply arrived
-    kDamaged,  ///< the bytes received are not a valid reply frame
+    kReply,    ///< reader.reply() has a value
+    kDamaged,  ///< the reply is damaged
+    kEcho,     ///< the request itself came back
     kTimeout,
     kLost,  ///< the connection is lost
   };
 
-  /// Discards pending input, sends a request from encode_request and waits for the reply, which is
-  /// stored in `reply` for decode_reply. `cause` receives a description of the error.
-  End exchange(int unit, const std::vector<std::uint8_t>& request, std::size_t reply_bytes,
-               std::vector<std::uint8_t>& reply, std::string& cause);
+  /// Discards pending input and returns whether there was any.
+  bool discard_input();
+
+  /// Sends the reader's request and passes what arrives to the reader, for at most `patience`.
+  /// `cause` receives the reason of kLost.
+  End exchange(ReplyReader& reader, std::chrono::nanoseconds patience, std::string& cause);
 
  private:
-  Connection(const Endpoint& endpoint, const LinkTiming& timing, _modbus* modbus);
-  [[nodiscard]] Status open_tcp();
+  using TimePoint = std::chrono::steady_clock::time_point;
+
+  explicit Connection(const Endpoint& endpoint) : endpoint_(endpoint) {}
+  [[nodiscard]] Status open_tcp(const LinkTiming& timing);
   [[nodiscard]] Status open_serial();
-  End receive(std::vector<std::uint8_t>& reply, std::string& cause);
+  [[nodiscard]] bool wait(short events, TimePoint until) const;
+  [[nodiscard]] bool send(const std::vector<std::uint8_t>& bytes, TimePoint until) const;
 
   Endpoint endpoint_;
-  LinkTiming timing_;
-  _modbus* modbus_;
-  int lock_ = -1;      // second descriptor of a serial line, which holds the lock
-  bool owns_ = false;  // this process has locked the serial line
+  _modbus* modbus_ = nullptr;  // serial lines only
+  int line_ = -1;              // of modbus_ on a serial line
+  int lock_ = -1;              // second descriptor of a serial line, which holds the lock
+  bool owns_ = false;          // this process has locked the serial line
 };
 
 }  // namespace hydroprint::drive

@@ -25,6 +25,11 @@ bool is_answer(const Error& error) {
          error.reason == "LIMIT_EXCEEDED";
 }
 
+/// Returns whether a reply was damaged, missing or late.
+bool is_bad_reply(const Error& error) {
+  return error.reason == "REPLY_INVALID" || error.metadata.contains("timeout");
+}
+
 std::optional<Error> judge_time(const DriveProfile& profile, double time_s) {
   const Watchdog& watchdog = *profile.watchdog;
   if (time_s != 0 && time_s <= watchdog.largest_time_s) return std::nullopt;
@@ -45,11 +50,15 @@ Result<T> Drive::noted(Result<T> result) {
   return result;
 }
 
-Result<std::vector<std::uint16_t>> Drive::read(Space space, std::uint16_t address,
-                                               std::uint16_t count) {
+Request Drive::read_request(Space space, std::uint16_t address, std::uint16_t count) const {
   const Function function =
       space == Space::kHolding ? Function::kReadHolding : Function::kReadInput;
-  return noted(link_->transact({profile_.unit, function, address, count, {}}));
+  return {profile_.unit, function, address, count, {}};
+}
+
+Result<std::vector<std::uint16_t>> Drive::read(Space space, std::uint16_t address,
+                                               std::uint16_t count) {
+  return noted(link_->transact(read_request(space, address, count)));
 }
 
 Result<Inspection> Drive::connect() {
@@ -114,37 +123,57 @@ Result<Inspection> Drive::inspect_watchdog() {
   return out;
 }
 
+/// Reads some of a block's registers into their places and checks the mark if it is among them.
+Status Drive::read_part(const Block& block, const Part& part, Polled& polled) {
+  const auto sent = Clock::now();
+  HP_ASSIGN_OR_RETURN(const auto words, read(block.space, part.address, part.count));
+  const auto got = Clock::now();
+  const int mark = block.mark.address - part.address;
+  if (mark >= 0 && mark < part.count &&
+      (words[static_cast<std::size_t>(mark)] & block.mark.mask) != block.mark.value) {
+    known_ = false;
+    link_->distrust(read_request(block.space, part.address, part.count));
+    return fail(Code::kDataLoss,
+                fmt::format("a reply of {} lacks its mark ({}, register {:#06x}) and belongs to "
+                            "another request. Poll again",
+                            profile_.name, block.mark.meaning, block.mark.address),
+                "REPLY_INVALID");
+  }
+  std::copy(words.begin(), words.end(),
+            polled.blocks.back().begin() + part.address - block.address);
+  if (holds({block.space, part.address, part.count, {}}, profile_.position)) {
+    polled.time = sent + (got - sent) / 2;
+    polled.spread = (got - sent) / 2;
+  }
+  return {};
+}
+
+/// Reads a block. After a bad reply, reads it once more in other parts; for one block of each poll.
+Status Drive::read_block(const Block& block, Polled& polled) {
+  polled.blocks.emplace_back(block.count);
+  Status done = read_part(block, {block.address, block.count}, polled);
+  if (done || polled.repeated || !is_bad_reply(done.error())) return done;
+  polled.repeated = true;
+  const std::vector<Part> parts = parts_of(profile_, block);
+  if (parts.empty()) return done;
+  link_->count_retry();
+  for (const Part& part : parts) {
+    if (!read_part(block, part, polled)) return done;  // the first error names the cause
+  }
+  return {};
+}
+
 Result<DriveState> Drive::poll() {
   if (!connected()) {
     known_ = false;
     return fail(Code::kUnavailable, profile_.name + " is not connected. Connect to it first",
                 "RIG_OFFLINE");
   }
-  std::vector<std::vector<std::uint16_t>> blocks;
-  Clock::time_point time;
-  Clock::duration spread{};
-  for (const Block& block : profile_.blocks) {
-    const auto sent = Clock::now();
-    HP_ASSIGN_OR_RETURN(auto words, read(block.space, block.address, block.count));
-    const auto got = Clock::now();
-    if ((words[block.mark.address - block.address] & block.mark.mask) != block.mark.value) {
-      known_ = false;
-      link_->distrust();
-      return fail(Code::kDataLoss,
-                  fmt::format("a reply of {} lacks its mark ({}, register {:#06x}) and belongs to "
-                              "another request. Poll again",
-                              profile_.name, block.mark.meaning, block.mark.address),
-                  "REPLY_INVALID");
-    }
-    if (holds(block, profile_.position)) {
-      time = sent + (got - sent) / 2;
-      spread = (got - sent) / 2;
-    }
-    blocks.push_back(std::move(words));
-  }
-  DriveState state = decode_state(profile_, blocks);
-  state.time = time;
-  state.time_error = spread;
+  Polled polled;
+  for (const Block& block : profile_.blocks) HP_RETURN_IF_ERROR(read_block(block, polled));
+  DriveState state = decode_state(profile_, polled.blocks);
+  state.time = polled.time;
+  state.time_error = polled.spread;
   known_ = true;
   return state;
 }

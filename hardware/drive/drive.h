@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hardware/drive/block_parts.h"
 #include "hardware/drive/profile.h"
 #include "hardware/drive/transaction.h"
 #include "sim/base/result.h"
@@ -47,12 +48,12 @@ struct Inspection {
 /// A drive, controlled as described by its profile. Only one thread at a time may call it; other
 /// threads use StopLine. Every call ends after a bounded number of requests, each limited by the
 /// link's timing.
-/// Commands are sent once. A command that fails with metadata `timeout` may have taken effect.
-/// After any failure of the link the state is unknown: enable, home, move_to and jog return
-/// RIG_OFFLINE until a poll() succeeds. They return DRIVE_CONFIG_UNSAFE if connect() found the
-/// configuration unsafe. disable and stop are always sent. Errors: RIG_OFFLINE, DRIVE_CONFIG_UNSAFE
-/// and those of decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for values beyond the limits of
-/// the profile or the registers.
+/// Reads may be repeated; commands are sent once. A command that fails with metadata `timeout` may
+/// have taken effect. After any failure of the link the state is unknown: enable, home, move_to and
+/// jog return RIG_OFFLINE until a poll() succeeds. They return DRIVE_CONFIG_UNSAFE if connect()
+/// found the configuration unsafe. disable and stop are always sent. Errors: RIG_OFFLINE,
+/// DRIVE_CONFIG_UNSAFE and those of decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for values
+/// beyond the limits of the profile or the registers.
 class Drive {
  public:
   Drive(DriveProfile profile, std::shared_ptr<Link> link);
@@ -67,7 +68,9 @@ class Drive {
   /// succeeds.
   [[nodiscard]] bool connected() const;
 
-  /// Reads all blocks and checks their marks.
+  /// Reads all blocks and checks their marks. If a reply is damaged, missing or late, reads that
+  /// block again at once, in other parts (block_parts.h). Does so for one block only, so the
+  /// duration stays within recovery_time_s (link_budget.h) if no other reply is bad.
   [[nodiscard]] Result<DriveState> poll();
 
   [[nodiscard]] Status enable();
@@ -94,10 +97,21 @@ class Drive {
   [[nodiscard]] const std::shared_ptr<Link>& link() const { return link_; }
 
  private:
+  /// What a poll has read so far.
+  struct Polled {
+    std::vector<std::vector<std::uint16_t>> blocks;
+    std::chrono::steady_clock::time_point time;  // of the position
+    std::chrono::steady_clock::duration spread{};
+    bool repeated = false;  // a block has been read again
+  };
+
   [[nodiscard]] Status check_identity();
   [[nodiscard]] Result<Inspection> inspect_watchdog();
   [[nodiscard]] Status may_move() const;
   [[nodiscard]] Status command(Command which, double position_mm, double speed_mm_per_s);
+  [[nodiscard]] Status read_block(const Block& block, Polled& polled);
+  [[nodiscard]] Status read_part(const Block& block, const Part& part, Polled& polled);
+  [[nodiscard]] Request read_request(Space space, std::uint16_t address, std::uint16_t count) const;
   [[nodiscard]] Result<std::vector<std::uint16_t>> read(Space space, std::uint16_t address,
                                                         std::uint16_t count);
   template <class T>

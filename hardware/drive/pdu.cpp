@@ -5,25 +5,13 @@
 #include <array>
 #include <string>
 
+#include "hardware/drive/wire_words.h"
+
 namespace hydroprint::drive {
 namespace {
 
-constexpr std::uint8_t kExceptionFlag = 0x80;
-
-void put_word(std::vector<std::uint8_t>& out, std::size_t word) {
-  out.push_back(static_cast<std::uint8_t>(word >> 8U & 0xffU));
-  out.push_back(static_cast<std::uint8_t>(word & 0xffU));
-}
-
-std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
-  return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
-}
-
 tl::unexpected<Error> invalid(const std::string& what) {
-  return fail(Code::kDataLoss,
-              "the drive's reply " + what +
-                  ". If this persists, check cable, termination, baud rate and unit id",
-              "REPLY_INVALID");
+  return tl::unexpected(invalid_reply(what));
 }
 
 std::string_view exception_text(int exception) {
@@ -62,19 +50,37 @@ Result<std::vector<std::uint16_t>> decode_words(const Request& request,
   return words;
 }
 
-Result<std::vector<std::uint16_t>> decode_echo(const Request& request,
-                                               std::span<const std::uint8_t> reply) {
+/// Returns the second word of the reply to a write: the value or the number of values.
+std::uint16_t confirmed_word(const Request& request) {
+  return request.function == Function::kWriteOne
+             ? request.values.at(0)
+             : static_cast<std::uint16_t>(request.values.size());
+}
+
+Result<std::vector<std::uint16_t>> decode_confirmation(const Request& request,
+                                                       std::span<const std::uint8_t> reply) {
   if (reply.size() != 6) return invalid("has the wrong length");
-  const auto expected = request.function == Function::kWriteOne
-                            ? request.values[0]
-                            : static_cast<std::uint16_t>(request.values.size());
-  if (word_at(reply, 2) != request.address || word_at(reply, 4) != expected) {
+  if (word_at(reply, 2) != request.address || word_at(reply, 4) != confirmed_word(request)) {
     return invalid("confirms a different request");
   }
   return std::vector<std::uint16_t>();
 }
 
 }  // namespace
+
+Error invalid_reply(const std::string& what) {
+  return {Code::kDataLoss,
+          "the drive's reply " + what +
+              ". If this persists, check cable, termination, baud rate and unit id",
+          "REPLY_INVALID",
+          {}};
+}
+
+bool replies_look_alike(const Request& a, const Request& b) {
+  if (a.function != b.function) return false;
+  if (is_read(a)) return a.count == b.count;
+  return a.address == b.address && confirmed_word(a) == confirmed_word(b);
+}
 
 std::vector<std::uint8_t> encode_request(const Request& request) {
   std::vector<std::uint8_t> out = {static_cast<std::uint8_t>(request.unit),
@@ -106,9 +112,7 @@ Result<std::vector<std::uint16_t>> decode_reply(const Request& request,
     return refused(request, reply[2]);
   }
   if (reply[1] != function) return invalid("is for another function");
-  const bool is_read =
-      request.function == Function::kReadHolding || request.function == Function::kReadInput;
-  return is_read ? decode_words(request, reply) : decode_echo(request, reply);
+  return is_read(request) ? decode_words(request, reply) : decode_confirmation(request, reply);
 }
 
 }  // namespace hydroprint::drive

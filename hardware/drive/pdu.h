@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hardware/drive/profile.h"
@@ -29,6 +30,18 @@ struct Request {
   std::uint16_t count = 0;            ///< reads only
   std::vector<std::uint16_t> values;  ///< writes only
 };
+
+[[nodiscard]] inline bool is_read(const Request& request) {
+  return request.function == Function::kReadHolding || request.function == Function::kReadInput;
+}
+
+/// Returns whether a valid reply to one of the requests, other than an exception, is also one to
+/// the other: reads of equally many words, or the same write.
+[[nodiscard]] bool replies_look_alike(const Request& a, const Request& b);
+
+/// Returns the error REPLY_INVALID (kDataLoss) with the remedy for a reply that is `what`: "is cut
+/// off".
+[[nodiscard]] Error invalid_reply(const std::string& what);
 
 /// Encodes unit, function and data as sent, without the transport's header and checksum.
 [[nodiscard]] std::vector<std::uint8_t> encode_request(const Request& request);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hardware/drive/pdu.h"
+#include "hardware/drive/profile_checks.h"
 #include "hardware/drive/word_codec.h"
 #include "sim/base/toml_reader.h"
 
@@ -248,6 +249,12 @@ std::chrono::milliseconds read_duration(TomlReader& table, std::string_view key)
   return std::chrono::milliseconds(std::lround(1000 * table.number(key, 0.005, 5)));
 }
 
+void read_timing(TomlReader& table, DriveProfile& profile) {
+  profile.response_timeout = read_duration(table, "response_timeout_s");
+  profile.worst_delay = read_duration(table, "worst_delay_s");
+  profile.bus.silence_after_bad_reply = table.flag("silence_after_bad_reply", false);
+}
+
 }  // namespace
 
 Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
@@ -258,10 +265,12 @@ Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
   profile.is_virtual = top.flag("virtual", false);
   profile.unit = static_cast<int>(top.integer("unit", 1, 247, 1));
   profile.single_writes_by_fc16 = top.flag("single_writes_by_fc16", false);
+  profile.bus.echo = top.flag("echo", false);
+  profile.bus.unit_any = top.flag("unit_any", false);
+  profile.bus.rtu_over_tcp = top.flag("rtu_over_tcp", false);
   read_motion(top.table("motion"), profile);
   TomlReader timing = top.table("timing");
-  profile.response_timeout = read_duration(timing, "response_timeout_s");
-  profile.worst_delay = read_duration(timing, "worst_delay_s");
+  read_timing(timing, profile);
   for (TomlReader& table : top.tables("identity")) {
     const Space space = read_space(table);
     profile.identity.push_back(read_mark(table, space));
@@ -278,6 +287,8 @@ Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
   read_bits(top, profile);
   read_commands(top, profile);
   read_watchdog(top, profile);
+  check_parts(top, profile);
+  check_budget(timing, profile);
   HP_RETURN_IF_ERROR(top.finish());
   return profile;
 }

@@ -45,7 +45,8 @@ struct Mark {
 };
 
 /// Registers that are read with one request. The mark lies within the block and distinguishes the
-/// reply from a late reply to another request. Blocks of a profile differ in length.
+/// reply from a late reply to another request. Blocks of a profile differ in length, also from
+/// their parts (block_parts.h).
 struct Block {
   Space space = Space::kHolding;
   std::uint16_t address = 0;
@@ -114,6 +115,15 @@ struct Watchdog {
   std::vector<std::uint16_t> stopping = {};  ///< values of `action` that stop the axis
 };
 
+/// How a bus differs from plain Modbus.
+struct BusVariant {
+  bool echo = false;          ///< the adapter repeats what is sent, before the drive's reply
+  bool unit_any = false;      ///< replies come from any unit, as those of some gateways do
+  bool rtu_over_tcp = false;  ///< the gateway expects RTU frames over TCP
+  /// The drive must not receive a request while the reply to an earlier one may still arrive.
+  bool silence_after_bad_reply = false;
+};
+
 /// The description of a type of drive, read from a TOML file; hardware/profiles explains each key.
 /// Positions are relative to the home switch. The sign of `position.per_unit` determines which
 /// direction is positive (down, in a rig for dipping).
@@ -131,6 +141,7 @@ struct DriveProfile {
 
   std::chrono::milliseconds response_timeout{0};  ///< timeout of one request
   std::chrono::milliseconds worst_delay{0};       ///< after this time a reply can no longer arrive
+  BusVariant bus;
 
   std::vector<Mark> identity;
   std::vector<Block> blocks;  ///< registers to poll; contain all fields and bits below

@@ -15,7 +15,7 @@ constexpr std::array<RigConfigKey, 11> kKeys = {{
     {"keep_out_mm", &RigConfig::keep_out_mm, 0, 1000},
     {"max_speed_mm_per_s", &RigConfig::max_speed_mm_per_s, 0.1, 50},
     {"slack_mm", &RigConfig::slack_mm, 0.1, 100},
-    {"poll_period_s", &RigConfig::poll_period_s, 0.002, 0.02},
+    {"poll_period_s", &RigConfig::poll_period_s, 0.002, drive::kLongestPollPeriod_s},
     {"following_error_mm", &RigConfig::following_error_mm, 0.01, 10},
     {"following_error_s", &RigConfig::following_error_s, 0.02, 2},
     {"standstill_mm", &RigConfig::standstill_mm, 0.05, 1},

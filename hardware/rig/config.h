@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "hardware/drive/link_budget.h"
 #include "hardware/drive/profile.h"
 #include "sim/base/result.h"
 
@@ -40,7 +41,7 @@ struct RigConfigKey {
 
 /// The link to the drive counts as lost after kStale_s without a valid poll, or after kMissedPolls
 /// missed polls in a row.
-inline constexpr double kStale_s = 0.25;
+using drive::kStale_s;
 inline constexpr int kMissedPolls = 3;
 
 /// A jog ends unless it is requested again within this time.

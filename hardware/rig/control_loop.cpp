@@ -393,6 +393,7 @@ void ControlLoop::publish() {
   now.motion = log_.latest();
   now.missed_polls = link_monitor_.missed();
   now.connects = link_monitor_.connects();
+  now.link = drive_.link()->statistics();
   now.jitter = jitter_;
   now.priority = priority_;
   shared_.status.snapshot.store(now);

@@ -42,7 +42,8 @@ Result<std::unique_ptr<Controller>> Controller::make(const RigConfig& config,
                                                      drive::DriveProfile profile,
                                                      drive::Endpoint endpoint) {
   HP_RETURN_IF_ERROR(check(config, profile));
-  const drive::LinkTiming timing{kConnect, profile.response_timeout, profile.worst_delay};
+  const drive::LinkTiming timing{kConnect, profile.response_timeout, profile.worst_delay,
+                                 profile.bus};
   auto link = std::make_shared<drive::Link>(std::move(endpoint), timing);
   std::unique_ptr<Controller> out(new Controller);
   out->impl_ = std::make_unique<Impl>(config, std::move(profile), std::move(link));

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "hardware/drive/link_statistics.h"
 #include "hardware/rig/samples.h"
 #include "hardware/rig/state.h"
 #include "sim/base/process/real_time_thread.h"
@@ -56,7 +57,8 @@ struct Snapshot {
   double watchdog_s = 0;                         ///< watchdog time of the drive, as read back
   std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
-  Jitter jitter;  ///< increasing Jitter::ticks show that the control loop runs
+  drive::LinkStatistics link;  ///< how the drive's replies arrive, except those to StopChannel
+  Jitter jitter;               ///< increasing Jitter::ticks show that the control loop runs
   /// What the system has granted to the control loop. `memory_locked` covers its stack, its state
   /// and the samples.
   ThreadPriority priority;

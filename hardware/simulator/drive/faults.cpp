@@ -18,9 +18,10 @@ namespace {
 using std::chrono::milliseconds;
 using Words = std::vector<std::string>;
 
-constexpr std::array<std::pair<std::string_view, ReplyFaultKind>, 8> kFaults = {{
+constexpr std::array<std::pair<std::string_view, ReplyFaultKind>, 9> kFaults = {{
     {"late", ReplyFaultKind::kLate},
     {"drop", ReplyFaultKind::kDrop},
+    {"double", ReplyFaultKind::kDouble},
     {"truncate", ReplyFaultKind::kTruncate},
     {"wrong-id", ReplyFaultKind::kWrongId},
     {"wrong-function", ReplyFaultKind::kWrongFunction},
@@ -233,7 +234,7 @@ std::optional<Action> parse_words(Words words) {
 
 std::string_view action_help() {
   return "[fault] late DURATION [COUNT|all] [writes], [fault] "
-         "drop|truncate|wrong-id|wrong-function|wrong-crc|"
+         "drop|double|truncate|wrong-id|wrong-function|wrong-crc|"
          "wrong-length|busy [COUNT|all] [writes], silent, press|release "
          "stop|positive-end|negative-end|stall|"
          "freeze|deaf|runaway|drift, stall, freeze, deaf, runaway, drift, unplug, replug, reboot "

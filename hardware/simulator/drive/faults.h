@@ -16,6 +16,7 @@ enum class ReplyFaultKind {
   kNone,
   kLate,           ///< arrives `delay` later
   kDrop,           ///< never arrives
+  kDouble,         ///< arrives twice
   kTruncate,       ///< only half arrives
   kWrongId,        ///< reply of another unit
   kWrongFunction,  ///< reply of another function

@@ -107,6 +107,11 @@ void SerialServer::reply_to(std::size_t adu_bytes) {
   std::this_thread::sleep_until(reply_end);
   write_all(master_, frame);
   free_at_ = reply_end + frame_gap(line_);
+  if (answer.reply_fault.fault != ReplyFaultKind::kDouble) return;
+  free_at_ += wire_time(line_, frame.size());
+  std::this_thread::sleep_until(free_at_);
+  write_all(master_, frame);
+  free_at_ += frame_gap(line_);
 }
 
 }  // namespace hydroprint::simulated_drive

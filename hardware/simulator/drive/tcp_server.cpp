@@ -32,7 +32,9 @@ void serve(Plant& plant, int descriptor) {
     if (answer.reply_fault.fault == ReplyFaultKind::kLate) {
       std::this_thread::sleep_for(answer.reply_fault.delay);
     }
-    write_all(descriptor, tcp_frame(query.first(kHeader), answer.reply, answer.reply_fault.fault));
+    const auto frame = tcp_frame(query.first(kHeader), answer.reply, answer.reply_fault.fault);
+    write_all(descriptor, frame);
+    if (answer.reply_fault.fault == ReplyFaultKind::kDouble) write_all(descriptor, frame);
   }
 }
 

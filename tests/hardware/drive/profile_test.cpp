@@ -111,7 +111,40 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"stopping_actions = [1]", "stopping_actions = [\"halt\"]",
               "watchdog.stopping_actions"},
         Wrong{"code = 0x20", "code = 0x10", "is used by two alarms"},
+        Wrong{"response_timeout_s = 0.1 ", "response_timeout_s = 0.13 ",
+              "may take 0.21 s (response_timeout_s + 0.08 s), which must be less than 0.2 s, "
+              "motion.jog_dead_man_s"},
+        Wrong{"response_timeout_s = 0.1 ", "response_timeout_s = 0.17 ",
+              "less than 0.25 s, after which the link counts as lost. Lower response_timeout_s"},
+        Wrong{"largest_time_s = 0.25", "largest_time_s = 0.18",
+              "less than 0.18 s, watchdog.largest_time_s"},
+        Wrong{"silence_after_bad_reply = false", "silence_after_bad_reply = true",
+              "may take 0.43 s (response_timeout_s + worst_delay_s + 0.08 s)"},
+        Wrong{"silence_after_bad_reply = false", "silence_after_bad_reply = 1",
+              "timing.silence_after_bad_reply is not a boolean"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
+
+TEST(DriveProfile, ABudgetThatHoldsIsAccepted) {
+  EXPECT_TRUE(profile(changed("response_timeout_s = 0.1 ", "response_timeout_s = 0.119 ")));
+  std::string silent = changed("silence_after_bad_reply = false", "silence_after_bad_reply = true");
+  const std::string delay = "worst_delay_s = 0.25 ";
+  silent.replace(silent.find(delay), delay.size(), "worst_delay_s = 0.019 ");
+  EXPECT_TRUE(profile(silent));
+}
+
+TEST(DriveProfile, ABlockThatCannotBeReadAgainInOtherPartsIsRefused) {
+  // 9 words halve into 3 + 6 or, as numbers must stay whole, 1 + 8 or 2 + 7.
+  std::string more;
+  for (const int count : {3, 1 + 7, 7}) {
+    more += "\n[[block]]\nspace = \"input\"\naddress = " + std::to_string(1000 + 100 * count) +
+            "\ncount = " + std::to_string(count) +
+            "\nmark = { address = " + std::to_string(1000 + 100 * count) + ", value = 1 }\n";
+  }
+  const auto read = profile(virtual_profile() + more);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("block at 0x0100 cannot be read again"), std::string::npos)
+      << read.error().message;
+}
 
 TEST(DriveProfile, BlocksOfEqualLengthAreRefused) {
   const auto read = profile(virtual_profile() +

@@ -19,7 +19,8 @@ testing::VirtualRigOptions with_wire(testing::VirtualRigOptions options, const s
 }
 
 drive::Drive client_of(const drive::DriveProfile& profile, const std::string& address) {
-  const drive::LinkTiming timing{milliseconds(500), profile.response_timeout, profile.worst_delay};
+  const drive::LinkTiming timing{milliseconds(500), profile.response_timeout, profile.worst_delay,
+                                 profile.bus};
   return {profile, std::make_shared<drive::Link>(value_of(drive::parse_endpoint(address)), timing)};
 }
 

@@ -1,0 +1,28 @@
+#include "hardware/drive/late_replies.h"
+
+#include <algorithm>
+
+namespace hydroprint::drive {
+
+void LateReplies::add(const Request& request, TimePoint until) {
+  const auto now = std::chrono::steady_clock::now();
+  std::erase_if(requests_, [&](const Missing& missing) {
+    return missing.until < now || replies_look_alike(missing.request, request);
+  });
+  requests_.push_back({request, until});
+}
+
+bool LateReplies::expects_any(TimePoint now) const {
+  return std::any_of(requests_.begin(), requests_.end(),
+                     [&](const Missing& missing) { return missing.until > now; });
+}
+
+LateReplies::TimePoint LateReplies::clear_for(const Request& request) const {
+  TimePoint out{};
+  for (const Missing& missing : requests_) {
+    if (replies_look_alike(missing.request, request)) out = std::max(out, missing.until);
+  }
+  return out;
+}
+
+}  // namespace hydroprint::drive
