@@ -253,9 +253,9 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
   WiredRig rig(GetParam());
   rig.make_ready();
   for (int i = 0; i < 3; ++i) {
-    const std::uint64_t missed = rig->snapshot().missed_polls;
+    const std::uint64_t unanswered = rig->snapshot().link.unanswered_requests;
     rig.drive().act("fault late 200ms 1");
-    ASSERT_TRUE(wait_until([&] { return rig->snapshot().missed_polls > missed; }));
+    ASSERT_TRUE(wait_until([&] { return rig->snapshot().link.unanswered_requests > unanswered; }));
     // Waits until the late reply has arrived.
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
