@@ -2,6 +2,7 @@
 
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 #include <unistd.h>
@@ -76,6 +77,30 @@ void describe_queue(const ServiceContext& backend, Registry& out) {
             backend.pool.slots(), out);
 }
 
+void describe_replies(const v1::LinkQuality& link, Registry& out) {
+  add_counter("hydroprint_drive_damaged_replies_total",
+              "Replies of the drive that were damaged or belonged to another request.",
+              link.damaged_replies(), out);
+  add_counter("hydroprint_drive_unanswered_requests_total",
+              "Requests to the drive without a reply in time.", link.unanswered_requests(), out);
+  add_counter("hydroprint_drive_retried_reads_total",
+              "Reads that were repeated because their reply was damaged or missing.",
+              link.retried_reads(), out);
+  if (link.reply_times().empty()) return;
+  prometheus::Histogram::BucketBoundaries limits_s;
+  std::vector<double> replies;
+  for (const auto& bucket : link.reply_times()) {
+    if (bucket.has_at_most_s()) limits_s.push_back(bucket.at_most_s());
+    replies.push_back(static_cast<double>(bucket.replies()));
+  }
+  prometheus::BuildHistogram()
+      .Name("hydroprint_drive_reply_seconds")
+      .Help("Time from sending a request to the end of the drive's reply.")
+      .Register(out)
+      .Add({}, limits_s)
+      .ObserveMultiple(replies, link.reply_time_sum_s());
+}
+
 void describe_scheduling(const v1::LinkQuality& link, Registry& out) {
   using v1::LinkQuality;
   if (link.scheduling() == LinkQuality::SCHEDULING_UNSPECIFIED) return;
@@ -118,6 +143,7 @@ void describe_rig(const Rig& rig, Registry& out) {
             link.largest_lateness_s(), out);
   add_gauge("hydroprint_drive_poll_lateness_rms_seconds", "Root mean square delay of polls.",
             link.rms_lateness_s(), out);
+  describe_replies(link, out);
   describe_scheduling(link, out);
 }
 

@@ -114,6 +114,18 @@ v1::LinkQuality::Scheduling scheduling_of(Scheduling scheduling) {
   return v1::LinkQuality::SCHEDULING_UNSPECIFIED;
 }
 
+void set_replies(const drive::LinkStatistics& link, v1::LinkQuality& out) {
+  out.set_damaged_replies(link.damaged_replies);
+  out.set_unanswered_requests(link.unanswered_requests);
+  out.set_retried_reads(link.retried_reads);
+  out.set_reply_time_sum_s(link.reply_time_sum_s);
+  for (std::size_t i = 0; i < link.replies.size(); ++i) {
+    v1::LinkQuality::ReplyTime& bucket = *out.add_reply_times();
+    if (i < drive::kReplyLimits_s.size()) bucket.set_at_most_s(drive::kReplyLimits_s.at(i));
+    bucket.set_replies(link.replies.at(i));
+  }
+}
+
 void set_link_quality(const rig::Snapshot& now, v1::LinkQuality& out) {
   out.set_missed_polls(now.missed_polls);
   out.set_connects(now.connects);
@@ -124,6 +136,7 @@ void set_link_quality(const rig::Snapshot& now, v1::LinkQuality& out) {
   out.set_late_polls(now.jitter.late);
   out.set_scheduling(scheduling_of(now.priority.scheduling));
   out.set_memory_locked(now.priority.memory_locked);
+  set_replies(now.link, out);
 }
 
 void set_alarm(const drive::DriveProfile& profile, int code, v1::Rig& out) {

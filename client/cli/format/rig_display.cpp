@@ -43,8 +43,17 @@ std::string axis_line(const v1::Axis& axis) {
 }
 
 std::string link_line(const v1::LinkQuality& link) {
-  return fmt::format("{} polls, {} without a response; connected {} times", link.polls(),
-                     link.missed_polls(), link.connects());
+  std::string text = fmt::format("{} polls, {} without a response; connected {} times",
+                                 link.polls(), link.missed_polls(), link.connects());
+  if (link.damaged_replies() + link.unanswered_requests() + link.retried_reads() > 0) {
+    text += fmt::format("; {} damaged and {} missing replies, {} reads repeated",
+                        link.damaged_replies(), link.unanswered_requests(), link.retried_reads());
+  }
+  std::uint64_t replies = 0;
+  for (const auto& bucket : link.reply_times()) replies += bucket.replies();
+  if (replies == 0) return text;
+  return text + fmt::format("; replies take {:.1f} ms on average",
+                            1000 * link.reply_time_sum_s() / static_cast<double>(replies));
 }
 
 }  // namespace

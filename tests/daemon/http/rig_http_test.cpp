@@ -171,6 +171,30 @@ TEST_F(HttpRig, MetricsTellWhatTheControlLoopGot) {
       has(std::string("hydroprint_rig_memory_locked ") + (link.memory_locked() ? "1" : "0")));
   EXPECT_NE(text.find("\nhydroprint_drive_late_polls_total "), std::string::npos);
   EXPECT_LE(link.late_polls(), link.polls());
+  EXPECT_NE(text.find("\nhydroprint_drive_reply_seconds_bucket{le=\"0.001\"} "), std::string::npos);
+  EXPECT_NE(text.find("\nhydroprint_drive_reply_seconds_bucket{le=\"0.2\"} "), std::string::npos);
+  EXPECT_NE(text.find("\nhydroprint_drive_reply_seconds_sum "), std::string::npos);
+}
+
+TEST_F(HttpRig, BadRepliesOfTheDriveAreCounted) {
+  ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
+  rig.act("fault drop 1");
+  ASSERT_TRUE(wait_until([&] { return ann.rig().link_quality().retried_reads() == 1; }));
+  const v1::LinkQuality link = ann.rig().link_quality();
+  EXPECT_EQ(link.unanswered_requests(), 1U);
+  EXPECT_EQ(link.damaged_replies(), 0U);
+  EXPECT_EQ(link.missed_polls(), 0U);
+  EXPECT_EQ(ann.rig().state(), v1::Rig::DISARMED);
+  ASSERT_EQ(link.reply_times_size(), 9);
+  EXPECT_EQ(link.reply_times(0).at_most_s(), 0.001);
+  EXPECT_FALSE(link.reply_times(8).has_at_most_s());
+  std::uint64_t replies = 0;
+  for (const auto& bucket : link.reply_times()) replies += bucket.replies();
+  EXPECT_GE(replies, link.polls() - 2);
+  EXPECT_GT(link.reply_time_sum_s(), 0);
+  EXPECT_NE(
+      ask(daemon.http(), "GET", "/metrics").body.find("\nhydroprint_drive_retried_reads_total 1\n"),
+      std::string::npos);
 }
 
 TEST_F(HttpRig, ThousandsOfConnectionsDoNotDelayTheRig) {
