@@ -32,10 +32,11 @@ std::vector<Span> whole_spans(const DriveProfile& profile, const Block& block) {
   };
   add(profile.position.space, of(profile.position));
   if (profile.demand) add(profile.demand->space, of(*profile.demand));
+  if (!profile.velocity) return out;
   const Span position = of(profile.position);
-  const Span velocity = of(profile.velocity);
-  add(profile.velocity.space, velocity);
-  if (profile.position.space == profile.velocity.space) {
+  const Span velocity = of(*profile.velocity);
+  add(profile.velocity->space, velocity);
+  if (profile.position.space == profile.velocity->space) {
     add(profile.position.space,
         {std::min(position.begin, velocity.begin), std::max(position.end, velocity.end)});
   }

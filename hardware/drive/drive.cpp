@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hardware/drive/command_encoder.h"
+#include "hardware/drive/link_budget.h"
 #include "hardware/drive/state_decoder.h"
 #include "hardware/drive/word_codec.h"
 
@@ -63,16 +64,39 @@ Result<std::vector<std::uint16_t>> Drive::read(Space space, std::uint16_t addres
 
 Result<Inspection> Drive::connect() {
   known_ = false;
+  last_.reset();
   unsafe_.reset();
   HP_RETURN_IF_ERROR(link_->connect());
   connection_ = link_->connections();
   auto found = check_identity().and_then([this] { return inspect_watchdog(); });
   if (!found) {
     disconnect();
+    if (auto trouble = find_rtu_over_tcp(found.error())) return tl::unexpected(*trouble);
     return found;
   }
   unsafe_ = found->unsafe;
   return found;
+}
+
+/// Examines why a drive over TCP has never replied: reads its identity in an RTU frame, over
+/// another connection. Returns the error with the remedy if that is answered.
+std::optional<Error> Drive::find_rtu_over_tcp(const Error& error) const {
+  if (link_->endpoint().serial || link_->timing().bus.rtu_over_tcp ||
+      !error.metadata.contains("timeout") || link_->statistics().has_replies()) {
+    return std::nullopt;
+  }
+  LinkTiming timing = link_->timing();
+  timing.bus.rtu_over_tcp = true;
+  Link other(link_->endpoint(), timing);
+  if (!other.connect()) return std::nullopt;
+  const Mark& mark = profile_.identity.front();
+  (void)other.transact(read_request(mark.space, mark.address, 1));
+  if (!other.statistics().has_replies()) return std::nullopt;
+  return Error{Code::kUnavailable,
+               "the gateway at " + link_->endpoint().text() +
+                   " speaks Modbus RTU over TCP. Set rtu_over_tcp = true in the drive's profile",
+               "RIG_OFFLINE",
+               {}};
 }
 
 void Drive::disconnect() {
@@ -174,8 +198,16 @@ Result<DriveState> Drive::poll() {
   DriveState state = decode_state(profile_, polled.blocks);
   state.time = polled.time;
   state.time_error = polled.spread;
+  if (!profile_.velocity) state.velocity_mm_per_s = derive_velocity(state);
   known_ = true;
   return state;
+}
+
+double Drive::derive_velocity(const DriveState& state) {
+  const auto last = std::exchange(last_, std::pair(state.position_mm, state.time));
+  if (!last) return 0;
+  const double passed_s = std::chrono::duration<double>(state.time - last->second).count();
+  return passed_s > 0 && passed_s <= kStale_s ? (state.position_mm - last->first) / passed_s : 0;
 }
 
 Status Drive::may_move() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hardware/drive/block_parts.h"
@@ -17,6 +18,8 @@ namespace hydroprint::drive {
 /// The state of a drive at one point in time.
 struct DriveState {
   double position_mm = 0;  ///< relative to the home switch; meaningless before homing
+  /// If the profile has no velocity: the mean velocity since the last poll; 0 at the first poll
+  /// after connecting, and after more than kStale_s without one.
   double velocity_mm_per_s = 0;
   std::optional<double> demand_mm;  ///< position of the drive's own trajectory, if reported
   bool enabled = false;
@@ -106,7 +109,9 @@ class Drive {
   };
 
   [[nodiscard]] Status check_identity();
+  [[nodiscard]] std::optional<Error> find_rtu_over_tcp(const Error& error) const;
   [[nodiscard]] Result<Inspection> inspect_watchdog();
+  [[nodiscard]] double derive_velocity(const DriveState& state);
   [[nodiscard]] Status may_move() const;
   [[nodiscard]] Status command(Command which, double position_mm, double speed_mm_per_s);
   [[nodiscard]] Status read_block(const Block& block, Polled& polled);
@@ -119,6 +124,8 @@ class Drive {
 
   DriveProfile profile_;
   std::shared_ptr<Link> link_;
+  /// Position and time of the last poll, if the velocity is derived from them.
+  std::optional<std::pair<double, std::chrono::steady_clock::time_point>> last_;
   bool known_ = false;  // a poll succeeded, and the link has not failed since
   // The connection that was inspected; StopLine may have reconnected since then.
   std::uint64_t connection_ = 0;

@@ -1,7 +1,5 @@
 #include "hardware/drive/frame.h"
 
-#include "hardware/drive/wire_words.h"
-
 namespace hydroprint::drive {
 namespace {
 

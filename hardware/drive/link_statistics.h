@@ -21,6 +21,10 @@ struct LinkStatistics {
   /// Valid replies by the time from sending the request to the end of the reply.
   std::array<std::uint64_t, kReplyLimits_s.size() + 1> replies{};
   double reply_time_sum_s = 0;  ///< sum of these times
+
+  [[nodiscard]] bool has_replies() const {
+    return std::any_of(replies.begin(), replies.end(), [](std::uint64_t each) { return each > 0; });
+  }
 };
 
 /// Counts for LinkStatistics. Thread-safe without waiting.

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "hardware/drive/wire_words.h"
+#include "hardware/drive/frame.h"
 
 namespace hydroprint::drive {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "hardware/drive/pdu.h"
 #include "hardware/drive/profile_checks.h"
+#include "hardware/drive/profile_fields.h"
 #include "hardware/drive/word_codec.h"
 #include "sim/base/toml_reader.h"
 
@@ -18,43 +19,6 @@ constexpr std::array<std::string_view, kCommands> kCommandNames = {
     "enable", "disable", "home", "move", "jog_positive", "jog_negative", "stop", "reset_fault"};
 constexpr std::array<std::string_view, 5> kQuantityNames = {"position", "speed", "-speed",
                                                             "acceleration", "deceleration"};
-constexpr double kLeastPerUnit = 1e-9;
-constexpr double kMostPerUnit = 1e9;
-
-Space read_space(TomlReader& table) {
-  return table.choice("space", {"holding", "input"}) == 0 ? Space::kHolding : Space::kInput;
-}
-
-std::uint16_t read_word(TomlReader& table, std::string_view key,
-                        std::optional<std::int64_t> fallback = {}) {
-  return static_cast<std::uint16_t>(table.integer(key, 0, 0xffff, fallback));
-}
-
-/// @param per_unit  name of the key: "counts_per_mm"
-Format read_format(TomlReader& table, std::string_view per_unit) {
-  Format format;
-  format.words = static_cast<int>(table.integer("words", 1, 2));
-  format.is_signed = table.flag("signed", false);
-  format.low_word_first = table.flag("low_word_first", false);
-  format.inverse = table.flag("inverse", false);
-  format.per_unit = table.number(per_unit, -kMostPerUnit, kMostPerUnit);
-  if (std::abs(format.per_unit) < kLeastPerUnit) {
-    table.refuse(per_unit, "is 0 or too close to 0. Use the number of counts per unit");
-  }
-  return format;
-}
-
-Field read_field(TomlReader table, std::string_view per_unit) {
-  Field field;
-  field.space = read_space(table);
-  field.address = read_word(table, "address");
-  field.format = read_format(table, per_unit);
-  if (field.address + field.format.words > 0x10000) {
-    table.refuse("address",
-                 "is too high: the value ends after register 65535. Use a lower address");
-  }
-  return field;
-}
 
 Mark read_mark(TomlReader& table, Space space) {
   Mark mark{space, read_word(table, "address"), read_word(table, "value"),
@@ -237,6 +201,14 @@ void read_motion(TomlReader table, DriveProfile& profile) {
   profile.acceleration_mm_per_s2 = table.number("acceleration_mm_per_s2", 0.1, 1e5);
   profile.stopping_deceleration_mm_per_s2 =
       table.number("stopping_deceleration_mm_per_s2", 0.1, 1e5);
+  if (table.has("homing_speed_mm_per_s")) {
+    profile.homing_speed_mm_per_s = table.number("homing_speed_mm_per_s", 0.01, 1000);
+    if (*profile.homing_speed_mm_per_s > profile.max_speed_mm_per_s) {
+      table.refuse("homing_speed_mm_per_s",
+                   "is higher than max_speed_mm_per_s. Set a lower homing speed in the drive and "
+                   "here");
+    }
+  }
   profile.jog_refresh_s = table.number("jog_refresh_s", 0.01, 0.25);
   profile.jog_dead_man_s = table.number("jog_dead_man_s", 0, 0.5);
   if (profile.jog_dead_man_s > 0 && profile.jog_dead_man_s < profile.jog_refresh_s) {
@@ -279,7 +251,9 @@ Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
     top.refuse("identity", "is empty. Add registers that identify this drive");
   profile.blocks = read_blocks(top);
   profile.position = read_polled(top, profile.blocks, "position", "counts_per_mm");
-  profile.velocity = read_polled(top, profile.blocks, "velocity", "counts_per_mm_per_s");
+  if (top.has("velocity")) {
+    profile.velocity = read_polled(top, profile.blocks, "velocity", "counts_per_mm_per_s");
+  }
   if (top.has("demand")) {
     profile.demand = read_polled(top, profile.blocks, "demand", "counts_per_mm");
   }

@@ -136,6 +136,8 @@ struct DriveProfile {
 
   double max_speed_mm_per_s = 0;
   double acceleration_mm_per_s2 = 0;  ///< acceleration of moves, jogs and homing
+  /// Highest speed of homing, which is a setting of the drive; absent: unknown.
+  std::optional<double> homing_speed_mm_per_s;
   /// Lowest deceleration of a stop command and of the watchdog.
   double stopping_deceleration_mm_per_s2 = 0;
 
@@ -146,7 +148,9 @@ struct DriveProfile {
   std::vector<Mark> identity;
   std::vector<Block> blocks;  ///< registers to poll; contain all fields and bits below
 
-  Field position, velocity, alarm_code;
+  Field position, alarm_code;
+  /// Absent: Drive::poll derives the velocity from positions, so the two cannot be compared.
+  std::optional<Field> velocity;
   std::optional<Field> demand;  ///< position of the drive's own trajectory
   std::array<std::optional<BitPlace>, kStatusBits> bits;
   std::map<int, Alarm> alarms;
@@ -170,7 +174,8 @@ struct DriveProfile {
 
 /// Reads and validates a profile. Errors name file, line and remedy. They cover unknown and missing
 /// keys, wrong types, values out of range, fields outside all blocks, blocks of equal length or
-/// without a mark, and addresses beyond 65535.
+/// without a mark, addresses beyond 65535, a homing speed above the highest speed, and profiles
+/// with which one lost reply would end a motion (link_budget.h).
 [[nodiscard]] Result<DriveProfile> read_drive_profile(const std::filesystem::path& path);
 
 /// Returns an upper bound of the distance that the axis travels after the last message to the

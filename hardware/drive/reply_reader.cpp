@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "hardware/drive/wire_words.h"
-
 namespace hydroprint::drive {
 namespace {
 

@@ -42,7 +42,7 @@ DriveState decode_state(const DriveProfile& profile, const Blocks& blocks) {
   };
   DriveState out;
   out.position_mm = number(profile.position);
-  out.velocity_mm_per_s = number(profile.velocity);
+  if (profile.velocity) out.velocity_mm_per_s = number(*profile.velocity);
   if (profile.demand) out.demand_mm = number(*profile.demand);
   out.enabled = bit(StatusBit::kEnabled);
   out.homed = bit(StatusBit::kHomed);

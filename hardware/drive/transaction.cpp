@@ -17,12 +17,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kCrc = 2;
+constexpr std::size_t kChecksum = 2;  // bytes
 
 /// Number of bytes of request, echo and reply on a serial line.
 std::size_t bytes_on_line(const Request& request, const BusVariant& bus) {
-  const std::size_t sent = encode_request(request).size() + kCrc;
-  const std::size_t reply = (is_read(request) ? 3U + 2U * request.count : 6U) + kCrc;
+  const std::size_t sent = encode_request(request).size() + kChecksum;
+  const std::size_t reply = (is_read(request) ? 3U + 2U * request.count : 6U) + kChecksum;
   return (bus.echo ? 2 : 1) * sent + reply;
 }
 
@@ -270,7 +270,7 @@ Result<std::vector<std::uint16_t>> Link::transact(const Request& request, Urgenc
 }
 
 std::shared_ptr<Link> stop_link(const std::shared_ptr<Link>& link) {
-  if (link->endpoint().serial) return link;
+  if (link->endpoint().serial || link->timing().bus.rtu_over_tcp) return link;
   return std::make_shared<Link>(link->endpoint(), link->timing());
 }
 

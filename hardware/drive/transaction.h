@@ -38,9 +38,9 @@ enum class Urgency {
 /// to another request, because drives reply in order). Other requests are sent at once, unless the
 /// drive forbids it (BusVariant::silence_after_bad_reply).
 ///
-/// Every call ends within `worst_delay` + `response` and the transmission time (plus the same of
-/// another thread on the line). A request that is not like a missing one does not wait for
-/// `worst_delay`.
+/// Every call ends within `worst_delay` + `response` and the transmission time, plus `response` of
+/// another thread on the line. A request whose reply would not look like a missing one does not
+/// wait for `worst_delay`.
 class Link {
  public:
   Link(Endpoint endpoint, const LinkTiming& timing);
@@ -86,7 +86,7 @@ class Link {
 };
 
 /// Returns the link for stopping while `link` is busy or does not respond: another TCP connection;
-/// on RTU, which has only one line, the same link (with Urgency::kStop).
+/// on RTU (also over TCP), which has only one line, the same link (with Urgency::kStop).
 [[nodiscard]] std::shared_ptr<Link> stop_link(const std::shared_ptr<Link>& link);
 
 }  // namespace hydroprint::drive

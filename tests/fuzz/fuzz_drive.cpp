@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "hardware/drive/reply_reader.h"
 #include "hardware/drive/state_decoder.h"
 #include "hardware/drive/word_codec.h"
 #include "tests/fuzz/exchange.h"
@@ -92,11 +93,30 @@ Result<Words> decode_checked(const Request& request, const Bytes& reply) {
   return words;
 }
 
+/// Takes the bytes as they arrive on a line, in two pieces. A reply that is found must be in them,
+/// frame and all.
+void try_line(const Request& request, const Bytes& received, drive::Framing framing) {
+  constexpr std::uint16_t kTransaction = 7;
+  drive::ReplyReader reader(request, kTransaction, framing, {});
+  const Input all(received);
+  const std::size_t half = all.size() / 2;
+  auto found = reader.add(all.first(half));
+  if (found == drive::ReplyReader::Found::kNothing) found = reader.add(all.subspan(half));
+  HP_EXPECT(reader.trouble().find('\n') == std::string::npos);
+  if (found != drive::ReplyReader::Found::kReply || !*reader.reply()) return;
+  const Bytes frame = frame_of(framing, kTransaction, good_reply(request, **reader.reply()));
+  HP_EXPECT(std::search(all.begin(), all.end(), frame.begin(), frame.end()) != all.end());
+}
+
 void try_exchange(Input input) {
   const Exchange exchange = exchange_of(input);
   const Bytes sent = encode_request(exchange.request);
   HP_EXPECT(sent.size() >= 6 && sent.size() <= 253);
   (void)decode_checked(exchange.request, exchange.reply);
+  for (const auto framing : {drive::Framing::kRtu, drive::Framing::kTcp}) {
+    try_line(exchange.request, exchange.reply, framing);
+    try_line(exchange.request, frame_of(framing, 7, exchange.reply), framing);
+  }
 }
 
 /// Encoding a decoded number must give the original registers.
@@ -149,7 +169,7 @@ void check_bit(const DriveProfile& profile, const std::vector<Words>& blocks,
 void check_state(const DriveProfile& profile, const std::vector<Words>& blocks,
                  const drive::DriveState& state) {
   check_field(profile, blocks, profile.position, state.position_mm);
-  check_field(profile, blocks, profile.velocity, state.velocity_mm_per_s);
+  if (profile.velocity) check_field(profile, blocks, *profile.velocity, state.velocity_mm_per_s);
   check_field(profile, blocks, profile.alarm_code, state.alarm_code);
   HP_EXPECT(state.demand_mm.has_value() == profile.demand.has_value());
   if (profile.demand) check_field(profile, blocks, *profile.demand, *state.demand_mm);

@@ -63,7 +63,7 @@ void Registers::put_bit(drive::StatusBit which, bool value) {
 
 void Registers::set_state(const drive::DriveState& state) {
   put(profile_.position, state.position_mm);
-  put(profile_.velocity, state.velocity_mm_per_s);
+  if (profile_.velocity) put(*profile_.velocity, state.velocity_mm_per_s);
   if (profile_.demand) put(*profile_.demand, state.demand_mm.value_or(state.position_mm));
   put(profile_.alarm_code, state.alarm_code);
   put_bit(drive::StatusBit::kEnabled, state.enabled);

@@ -37,7 +37,8 @@ Machine machine_of(const drive::DriveProfile& profile, const Scene& scene) {
   out.max_speed_mm_per_s = profile.max_speed_mm_per_s;
   out.acceleration_mm_per_s2 = profile.acceleration_mm_per_s2;
   out.stopping_deceleration_mm_per_s2 = profile.stopping_deceleration_mm_per_s2;
-  out.homing_speed_mm_per_s = std::min(out.homing_speed_mm_per_s, out.max_speed_mm_per_s);
+  out.homing_speed_mm_per_s = std::min(
+      profile.homing_speed_mm_per_s.value_or(out.homing_speed_mm_per_s), out.max_speed_mm_per_s);
   out.jog_dead_man_s = profile.jog_dead_man_s;
   out.enables_itself = profile.command(drive::Command::kEnable).empty();
   return out;

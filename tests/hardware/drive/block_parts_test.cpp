@@ -67,15 +67,15 @@ TEST(BlockParts, HoldWhatTheProfileUsesAndSeparateNoNumber) {
         if (!place || !is_in(block, {place->space, place->address, {}})) continue;
         EXPECT_TRUE(is_whole_in_one(parts, place->address, place->address + 1)) << profile.name;
       }
-      for (const Field& field : {profile.position, profile.velocity, profile.alarm_code,
-                                 profile.demand.value_or(profile.position)}) {
+      for (const Field& field : {profile.position, profile.velocity.value_or(profile.position),
+                                 profile.alarm_code, profile.demand.value_or(profile.position)}) {
         if (!is_in(block, field)) continue;
         EXPECT_TRUE(is_whole_in_one(parts, field.address, field.address + field.format.words));
       }
-      if (!is_in(block, profile.position) || !is_in(block, profile.velocity)) continue;
-      EXPECT_TRUE(is_whole_in_one(parts,
-                                  std::min(profile.position.address, profile.velocity.address),
-                                  std::max(profile.position.address, profile.velocity.address) + 2))
+      if (!is_in(block, profile.position) || !is_in(block, *profile.velocity)) continue;
+      EXPECT_TRUE(
+          is_whole_in_one(parts, std::min(profile.position.address, profile.velocity->address),
+                          std::max(profile.position.address, profile.velocity->address) + 2))
           << profile.name << ": the two must be read at the same time";
     }
   }

@@ -35,6 +35,9 @@ TEST(DriveProfile, VirtualDriveIsReadCorrectly) {
   EXPECT_EQ(read->unit, 1);
   EXPECT_EQ(read->max_speed_mm_per_s, 20);
   EXPECT_EQ(read->response_timeout, std::chrono::milliseconds(100));
+  EXPECT_EQ(read->homing_speed_mm_per_s, 10);
+  EXPECT_TRUE(read->velocity);
+  EXPECT_FALSE(read->bus.echo || read->bus.unit_any || read->bus.rtu_over_tcp);
   ASSERT_EQ(read->identity.size(), 2U);
   EXPECT_EQ(read->identity[1].mask, 0xff00);
   ASSERT_EQ(read->blocks.size(), 1U);
@@ -122,7 +125,34 @@ INSTANTIATE_TEST_SUITE_P(
               "may take 0.43 s (response_timeout_s + worst_delay_s + 0.08 s)"},
         Wrong{"silence_after_bad_reply = false", "silence_after_bad_reply = 1",
               "timing.silence_after_bad_reply is not a boolean"},
+        Wrong{"homing_speed_mm_per_s = 10.0", "homing_speed_mm_per_s = 20.5",
+              "motion.homing_speed_mm_per_s is higher than max_speed_mm_per_s"},
+        Wrong{"homing_speed_mm_per_s = 10.0", "homing_speed_mm_per_s = nan",
+              "motion.homing_speed_mm_per_s is not a number in range"},
+        Wrong{"echo = false", "echo = \"yes\"", "echo is not a boolean"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
+
+TEST(DriveProfile, KeysOfUnusualBusesAreRead) {
+  const auto read = profile("unit_any = true\nrtu_over_tcp = true\necho = true\n" + [] {
+    std::string text = virtual_profile();
+    for (const char* key : {"\nunit_any", "\nrtu_over_tcp", "\necho"}) {
+      text.insert(text.find(key) + 1, "# ");
+    }
+    return text;
+  }());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(read->bus.echo && read->bus.unit_any && read->bus.rtu_over_tcp);
+}
+
+TEST(DriveProfile, TheVelocityAndTheHomingSpeedMayBeAbsent) {
+  std::string text = changed("homing_speed_mm_per_s", "# homing_speed_mm_per_s");
+  const std::size_t begin = text.find("[velocity]");
+  text.erase(begin, text.find("[demand]") - begin);
+  const auto read = profile(text);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_FALSE(read->velocity);
+  EXPECT_FALSE(read->homing_speed_mm_per_s);
+}
 
 TEST(DriveProfile, ABudgetThatHoldsIsAccepted) {
   EXPECT_TRUE(profile(changed("response_timeout_s = 0.1 ", "response_timeout_s = 0.119 ")));
