@@ -122,6 +122,17 @@ TEST_F(RigCli, StatusPrintsTheJsonOfRest) {
             ask(programs_.daemon.http(), "GET", "/v1/rig/lease").json());
 }
 
+TEST_F(RigCli, StatusTellsHowTheRepliesOfTheDriveArrive) {
+  const auto says = [&](const std::string& text) {
+    return programs_.client({"rig", "status"}).out.find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says("; replies take "));
+  EXPECT_FALSE(says("missing replies"));
+  programs_.rig.act("fault drop 1");
+  EXPECT_TRUE(
+      wait_until([&] { return says("; 0 damaged and 1 missing replies, 1 reads repeated"); }));
+}
+
 TEST_F(RigCli, RefusalsOfTheRigAreOneLine) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "a test"});
   expect_error({"rig", "home"}, 3, {"arm it"});

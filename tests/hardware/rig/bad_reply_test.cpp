@@ -1,7 +1,9 @@
 // One lost, damaged, doubled or late reply to a poll ends no motion.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <thread>
+#include <tuple>
 
 #include "tests/hardware/rig/wired_rig.h"
 
@@ -29,12 +31,13 @@ void damage(WiredRig& rig, const char* fault) {
   EXPECT_TRUE(wait_until([&] { return bad_replies(rig) > before; }, 2)) << fault;
 }
 
-void move_and_dip(const char* wire, int rounds) {
+/// A move and a dip with one bad reply each, per round and fault.
+void move_and_dip(const char* wire, const std::vector<const char*>& faults, int rounds) {
   WiredRig rig(wire);
   rig.make_ready();
   for (int i = 0; i < rounds; ++i) {
-    for (const char* fault : kBadReplies) {
-      const std::uint64_t motion = rig.start_move(i % 2 == 0 ? 12 : 8, 4);
+    for (const char* fault : faults) {
+      const std::uint64_t motion = rig.start_move(12, 4);
       damage(rig, fault);
       const MotionReport moved = rig.finish(motion);
       ASSERT_EQ(moved.outcome, Outcome::kDone) << fault << ", cause " << int(moved.cause);
@@ -49,9 +52,26 @@ void move_and_dip(const char* wire, int rounds) {
   }
 }
 
-TEST_P(OneBadReply, EndsNoMoveAndNoDip) { move_and_dip(GetParam(), 1); }
+TEST_P(OneBadReply, EndsNoMoveAndNoDip) {
+  move_and_dip(GetParam(), {std::begin(kBadReplies), std::end(kBadReplies)}, 1);
+}
 
-TEST_P(OneBadReply, EndsNoneOfAThousandMotions) { move_and_dip(GetParam(), 125); }
+class ManyBadReplies : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+TEST_P(ManyBadReplies, EndNoneOf250Motions) {
+  const auto& [wire, fault] = GetParam();
+  move_and_dip(wire, {fault}, 125);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wire, ManyBadReplies,
+                         ::testing::Combine(::testing::Values("tcp", "rtu"),
+                                            ::testing::ValuesIn(kBadReplies)),
+                         [](const auto& value) {
+                           std::string name = std::get<0>(value.param);
+                           for (const char c : std::string_view(std::get<1>(value.param)).substr(5))
+                             name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+                           return name;
+                         });
 
 // A bad reply to a command of the jog is another matter: the command is not repeated. Its commands
 // are far apart here, so that the bad reply is one to a poll.
