@@ -39,10 +39,6 @@ const std::vector<DriveProfile>& profiles() {
   return all;
 }
 
-bool is_read(const Request& request) {
-  return request.function == Function::kReadHolding || request.function == Function::kReadInput;
-}
-
 /// The only valid reply that contains `words` (for a read) or confirms a write.
 Bytes good_reply(const Request& request, const Words& words) {
   if (!is_read(request)) {
