@@ -43,6 +43,12 @@ Status check(const RigConfig& config, const drive::DriveProfile& profile) {
         "max_speed_mm_per_s is {:g}; it must be at most {:g}, the limit of the drive \"{}\"",
         config.max_speed_mm_per_s, profile.max_speed_mm_per_s, profile.name));
   }
+  if (profile.homing_speed_mm_per_s.value_or(0) > config.max_speed_mm_per_s) {
+    return refuse(fmt::format(
+        "max_speed_mm_per_s is {:g}; it must be at least {:g}, the homing speed of the drive "
+        "\"{}\"; increase it, or lower the homing speed in the drive and in its profile",
+        config.max_speed_mm_per_s, *profile.homing_speed_mm_per_s, profile.name));
+  }
   const double needed_mm = stopping_distance_mm(config, profile, config.max_speed_mm_per_s);
   if (!(config.keep_out_mm >= needed_mm)) {
     return refuse(fmt::format(

@@ -86,7 +86,7 @@ AxisOrder MotionSupervisor::order() const {
   AxisOrder out{.state = State::kMoving, .motion = plan_.motion, .since = start_};
   if (plan_.motion == Motion::kDip) out.state = State::kDipping;
   if (plan_.legs.empty()) {
-    out.speed_mm_per_s = config_.max_speed_mm_per_s;
+    out.speed_mm_per_s = profile_.homing_speed_mm_per_s.value_or(config_.max_speed_mm_per_s);
     return out;
   }
   if (travel_) out.since = leg_start_;

@@ -44,9 +44,11 @@ double hardest_mm_per_s2(const drive::DriveProfile& profile) {
 }
 
 /// Whether the axis cannot have moved from `a` to `b` in the time between, given the velocities.
+/// A velocity that was derived from `b` cannot explain it.
 bool is_unexplained(const drive::DriveProfile& profile, const AxisSample& a, const AxisSample& b) {
   const double dt_s = seconds(a.time, b.time);
-  const double v_mm_per_s = std::max(std::abs(a.velocity_mm_per_s), std::abs(b.velocity_mm_per_s));
+  const double v_mm_per_s =
+      std::max(std::abs(a.velocity_mm_per_s), profile.velocity ? std::abs(b.velocity_mm_per_s) : 0);
   const double reach_mm = kDistance_mm + v_mm_per_s * (dt_s + a.time_error_s + b.time_error_s) +
                           hardest_mm_per_s2(profile) * dt_s * dt_s / 2;
   return !(std::abs(b.position_mm - a.position_mm) <= reach_mm);
@@ -65,6 +67,7 @@ Found look_for_jump(const drive::DriveProfile& profile, const AxisOrder& order, 
 /// Compares the distance with the integral of the velocity, over all times until now.
 Found compare_feedback(const drive::DriveProfile& profile, const AxisOrder& order,
                        Samples samples) {
+  if (!profile.velocity) return std::nullopt;
   double integral_mm = 0, path_mm = 0, fastest_mm_per_s = 0;
   for (std::size_t i = samples.size() - 1; i > 0; --i) {
     const AxisSample &a = samples[i - 1], &b = samples[i];

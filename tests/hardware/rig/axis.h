@@ -19,6 +19,7 @@ inline drive::DriveProfile test_profile() {
   profile.max_speed_mm_per_s = 20;
   profile.acceleration_mm_per_s2 = 100;
   profile.stopping_deceleration_mm_per_s2 = 200;
+  profile.velocity.emplace();
   profile.watchdog.emplace();
   profile.watchdog->largest_time_s = 0.5;
   return profile;

@@ -38,7 +38,8 @@ Place on(const Travel& travel, double t_s) {
 /// An axis, its drive's registers and bits, and the order that it obeys until its fault.
 class Axis {
  public:
-  Axis(Doing doing, AxisFault fault, unsigned seed) : doing_(doing), fault_(fault), random_(seed) {
+  Axis(Doing doing, AxisFault fault, unsigned seed, bool has_velocity_register)
+      : doing_(doing), fault_(fault), random_(seed), has_velocity_register_(has_velocity_register) {
     // A fault in mid-motion or, if it would not show there, from the start.
     const bool at_start = fault == AxisFault::kHomedBitStale ||
                           fault == AxisFault::kVelocityFrozen ||
@@ -65,14 +66,24 @@ class Axis {
     drive::DriveState out;
     out.time = at(last_s_);
     out.time_error = std::chrono::duration<double>(0.002);
-    out.position_mm = truth_.x_mm + 0.01 * (uniform() - 0.5);
+    const double noise_mm = has_velocity_register_ ? 0.01 : 0.001;
+    out.position_mm = truth_.x_mm + noise_mm * (uniform() - 0.5);
     out.velocity_mm_per_s = truth_.v_mm_per_s + 0.1 * (uniform() - 0.5);
     out.enabled = true;
     out.moving = std::abs(truth_.v_mm_per_s) > 0.01;
     out.home_switch = false;
     out.homed = doing_ == Doing::kHome ? is_homed() : doing_ != Doing::kUnhomed;
     falsify(out);
+    if (!has_velocity_register_) derive_velocity(out);
     return out;
+  }
+
+  void derive_velocity(drive::DriveState& out) {
+    constexpr double kStep_mm = 1e-3;  // of the position register
+    out.position_mm = std::round(out.position_mm / kStep_mm) * kStep_mm;
+    const double dt_s = before_ ? seconds(before_->time, out.time) : 0;
+    out.velocity_mm_per_s = dt_s > 0 ? (out.position_mm - before_->position_mm) / dt_s : 0;
+    before_ = out;
   }
 
   [[nodiscard]] double stop_s() const { return 1; }
@@ -180,6 +191,8 @@ class Axis {
   Doing doing_;
   AxisFault fault_;
   std::mt19937 random_;
+  bool has_velocity_register_;
+  std::optional<drive::DriveState> before_;
   double fault_s_ = 0, last_s_ = 0, leg_s_ = 0, way_mm_ = 0, frozen_mm_ = kFrom_mm;
   Place truth_;
   std::optional<Travel> leg_;
@@ -228,8 +241,9 @@ Plan plan_of(Doing doing) {
 /// The rig's reaction to one sample: its own fault, that of the motion, or the end of the motion.
 class Watch {
  public:
-  explicit Watch(Doing doing)
+  Watch(Doing doing, bool has_velocity_register)
       : config_(test_config()), profile_(test_profile()), observer_(config_, profile_) {
+    if (!has_velocity_register) profile_.velocity.reset();
     condition_ = condition_of(doing);
     if (in_motion(condition_.state)) {
       supervisor_.emplace(config_, profile_, plan_of(doing), at(0), kFrom_mm);
@@ -281,9 +295,9 @@ class Watch {
 
 }  // namespace
 
-Noticed play(Doing doing, AxisFault fault, unsigned seed) {
-  Axis axis(doing, fault, seed);
-  Watch watch(doing);
+Noticed play(Doing doing, AxisFault fault, unsigned seed, bool has_velocity_register) {
+  Axis axis(doing, fault, seed, has_velocity_register);
+  Watch watch(doing, has_velocity_register);
   Noticed out;
   bool is_stopped = false;
   double t_s = 0;

@@ -55,8 +55,10 @@ struct Noticed {
 };
 
 /// Plays an axis with noisy samples at irregular times, 20 ms apart in the mean, to AxisObserver
-/// and MotionSupervisor, as the control loop does.
-[[nodiscard]] Noticed play(Doing doing, AxisFault fault, unsigned seed);
+/// and MotionSupervisor, as the control loop does. Without a velocity register, velocities are
+/// derived from positions, as hydroprint::drive::Drive does.
+[[nodiscard]] Noticed play(Doing doing, AxisFault fault, unsigned seed,
+                           bool has_velocity_register = true);
 
 [[nodiscard]] std::string_view words(Doing doing);
 [[nodiscard]] std::string_view words(AxisFault fault);

@@ -105,6 +105,16 @@ TEST(Config, ASpeedAboveTheDrivesLimitIsRefused) {
   EXPECT_NE(refused.error().message.find("test drive"), std::string::npos);
 }
 
+TEST(Config, AHomingSpeedAboveTheRigsLimitIsRefused) {
+  drive::DriveProfile profile = test_profile();
+  profile.homing_speed_mm_per_s = 12;
+  const Status refused = check(test_config(), profile);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("homing speed"), std::string::npos);
+  profile.homing_speed_mm_per_s = 10;
+  EXPECT_TRUE(check(test_config(), profile));
+}
+
 TEST(Config, EndsWithoutSpaceBetweenTheKeepOutsAreRefused) {
   RigConfig config = test_config();
   config.end_high_mm = config.end_low_mm + 2 * config.keep_out_mm;

@@ -51,6 +51,23 @@ TEST(Observe, GoodMotionsShowNoFault) {
   EXPECT_TRUE(play(Doing::kHome, AxisFault::kNone, 1).is_done);
 }
 
+TEST(Observe, WithoutAVelocityRegisterThePositionAloneShowsFaults) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto cause = [&](Doing doing, AxisFault fault) {
+      return play(doing, fault, seed, false).cause;
+    };
+    for (const Doing doing : {Doing::kIdle, Doing::kHome, Doing::kJog, Doing::kMove, Doing::kDip}) {
+      EXPECT_EQ(cause(doing, AxisFault::kNone), Cause::kNone) << words(doing) << " seed " << seed;
+    }
+    EXPECT_EQ(cause(Doing::kIdle, AxisFault::kZeroed), Cause::kUnexpectedMotion);
+    EXPECT_EQ(cause(Doing::kIdle, AxisFault::kRunaway), Cause::kUnexpectedMotion);
+    EXPECT_EQ(cause(Doing::kIdle, AxisFault::kDrift), Cause::kUnexpectedMotion);
+    EXPECT_EQ(cause(Doing::kJog, AxisFault::kRunaway), Cause::kOverspeed);
+    EXPECT_EQ(cause(Doing::kJog, AxisFault::kPositionFrozen), Cause::kFollowingError);
+    EXPECT_EQ(cause(Doing::kMove, AxisFault::kPositionFrozen), Cause::kFollowingError);
+  }
+}
+
 TEST(Observe, AJogMayChangeItsSpeedAndDirection) {
   const auto profile = test_profile();
   AxisOrder order{
