@@ -166,6 +166,55 @@ test('the commands stay while the rig is ours, and end with the lease', async ()
   expect(person.complaints).toEqual([]);
 });
 
+test('a stop that the drive does not obey is loud on every screen, until its cause is gone', async () => {
+  const operator = await come(there, 'otto', 'rig');
+  const viewer = await come(there, 'vera', 'jobs', 390);
+  const { page } = operator;
+  const title = 'Press the stop button on the rig';
+  const alertOf = (on: Page) => on.getByRole('alertdialog', { name: title });
+  const bannerOf = (on: Page) => on.getByRole('alert').filter({ hasText: 'must be pressed' });
+  await takeReady(page);
+  await page.getByLabel('Move to').fill('250');
+  await press(page, 'Move');
+  await page.locator('.big', { hasText: 'Moving' }).waitFor();
+  await there.daemon.act('press deaf');
+  await press(page, 'Stop');
+  for (const person of [operator, viewer]) {
+    const on = person.page;
+    await alertOf(on).waitFor();
+    // A key that is held or typed at this moment acknowledges nothing.
+    for (const key of ['Space', 'Enter', 'Escape', 'Escape']) await on.keyboard.press(key);
+    expect(await alertOf(on).evaluate((shown) => shown.contains(document.activeElement))).toBe(
+      true,
+    );
+    const box = await alertOf(on).boundingBox();
+    expect(box).toEqual({ x: 0, y: 0, ...on.viewportSize() });
+  }
+  await look(operator, 'stop-alarm-rig');
+  await look(viewer, 'stop-alarm-jobs');
+
+  // Each page is silenced by its own user, and keeps the banner on every screen.
+  await press(page, 'I have pressed it');
+  await bannerOf(page).waitFor();
+  expect(await alertOf(page).count()).toBe(0);
+  expect(await alertOf(viewer.page).isVisible()).toBe(true);
+  await page.locator('.big', { hasText: 'Fault' }).waitFor();
+  await page.getByText(/^Alarm 48 of the drive: communication timeout/).waitFor();
+  await look(operator, 'stop-alarm-banner-rig');
+  await open(operator, '/jobs');
+  await page.getByRole('heading', { name: 'Jobs' }).waitFor();
+  expect(await bannerOf(page).isVisible()).toBe(true);
+  await look(operator, 'stop-alarm-banner-jobs');
+
+  await there.daemon.act('clear');
+  await open(operator, '/rig');
+  for (const step of ['Reset', 'Arm', 'Home']) await press(page, step);
+  await becomesReady(page);
+  await bannerOf(page).waitFor({ state: 'detached' });
+  await alertOf(viewer.page).waitFor({ state: 'detached' });
+  expect(operator.complaints.concat(viewer.complaints)).toEqual([]);
+});
+
 rareTest(
   'the depth camera is shown live to every user, and a missing picture is reported',
   async () => {

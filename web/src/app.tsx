@@ -8,9 +8,11 @@ import { People } from './screens/people';
 import { QueueScreen } from './screens/queue';
 import { RigScreen } from './screens/rig';
 import { SignIn } from './screens/sign_in';
+import { StopAlarm } from './screens/stop_alarm';
 import { dismiss, notices } from './state/notices';
 import { isMoving, stop, stopState } from './state/rig';
 import { may, mustSignIn, signOut, who } from './state/session';
+import { stopAlarm } from './state/stop_alarm';
 import { nextTheme, theme } from './theme';
 import { Icon } from './ui/icon';
 
@@ -53,6 +55,7 @@ function Frame({ children }: { children: ComponentChildren }) {
         <Account />
         {who.value && <StopButton />}
       </header>
+      {who.value && <StopAlarm />}
       <ConnectionBanner />
       <main id="main" tabIndex={-1}>
         {children}
@@ -120,7 +123,7 @@ function StopButton() {
       onClick={() => void stop()}
       title="Stops the rig. While the rig moves, the Escape key also stops it."
     >
-      {kStopText[stopState.value]}
+      {kStopText[stopAlarm.value === 'off' ? stopState.value : 'ready']}
     </button>
   );
 }
@@ -128,7 +131,9 @@ function StopButton() {
 function useEscapeToStop(): void {
   useLayoutEffect(() => {
     const take = (event: KeyboardEvent) => {
-      if (event.key === 'Escape' && isMoving.value && may('VIEWER')) void stop();
+      // If the drive does not obey, another message would only delay its own watchdog.
+      const isObeyed = stopAlarm.value === 'off';
+      if (event.key === 'Escape' && isMoving.value && isObeyed && may('VIEWER')) void stop();
     };
     window.addEventListener('keydown', take, { capture: true });
     return () => window.removeEventListener('keydown', take, { capture: true });

@@ -13,6 +13,13 @@ export class TinyNode {
   readonly oninput = null;
   readonly onblur = null;
   readonly onkeydown = null;
+  readonly onclick = null;
+  readonly oncancel = null;
+  readonly onclose = null;
+  /** The element that received focus last. */
+  static focused: TinyNode | undefined;
+  /** Of a dialog: whether it is shown. */
+  open = false;
   private readonly listeners = new Map<string, Listener>();
 
   constructor(
@@ -63,6 +70,26 @@ export class TinyNode {
 
   fire(type: string): void {
     this.listeners.get(type)?.call(this, { type, currentTarget: this });
+  }
+
+  get isConnected(): boolean {
+    return this.parentNode !== null;
+  }
+
+  focus(): void {
+    TinyNode.focused = this;
+  }
+
+  showModal(): void {
+    this.open = true;
+  }
+
+  close(): void {
+    this.open = false;
+  }
+
+  attribute(name: string): string | undefined {
+    return this.attributes.find((attribute) => attribute.name === name)?.value;
   }
 
   /** The first element of that name at or below this node. */

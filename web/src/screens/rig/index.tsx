@@ -21,6 +21,7 @@ import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { DepthPicture } from './depth_picture';
 import { DipEnd, DipGuide } from './dip_guide';
 import { BeginDip } from './dip_begin';
+import { DriveAlarm } from './drive_alarm';
 import { Gauge } from './gauge';
 import { Jog } from './jog';
 
@@ -80,6 +81,7 @@ function Standing({ now }: { now: Rig }) {
         {kStates[now.state] ?? now.state}
       </p>
       {now.trouble && <p class="warning">{now.trouble}</p>}
+      <DriveAlarm now={now} />
       {now.state === 'DISARMED' && (
         <p class="quiet">The drive has no torque. Arm it, then home the axis.</p>
       )}
