@@ -222,6 +222,9 @@ void DipSession::fail_for(const Error& error) {
 void DipSession::look() {
   take_samples();
   if (motion_ != 0) {
+    // Also if the ending is decided: a person must know.
+    const rig::Cause cause = rig().snapshot().condition.cause;
+    if (cause == rig::Cause::kStopNotObeyed) failure_ = rig::failed(cause);
     look_at_motion();
   } else {
     look_at_rest();
@@ -370,18 +373,17 @@ void DipSession::note_record(const Status& written) {
 }
 
 std::string DipSession::end_words() const {
+  const std::string failure = failure_ ? failure_->message + "; " : "";
+  const std::string where = fmt::format("{}: {}", name(stand_.step), dip::advice(stand_.step));
   switch (stand_.ending) {
     case Ending::kSucceeded:
       return dip::afterwards();
     case Ending::kCancelled:
-      return fmt::format("ended on request during {}: {}", name(stand_.step),
-                         dip::advice(stand_.step));
+      return failure + "ended on request during " + where;
     case Ending::kInterrupted:
-      return fmt::format("the daemon was shut down during {}: {}", name(stand_.step),
-                         dip::advice(stand_.step));
+      return failure + "the daemon was shut down during " + where;
     default:
-      return fmt::format("{}; during {}: {}", failure_ ? failure_->message : "the rig failed",
-                         name(stand_.step), dip::advice(stand_.step));
+      return (failure_ ? failure : "the rig failed; ") + "during " + where;
   }
 }
 

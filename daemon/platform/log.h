@@ -10,8 +10,9 @@
 
 namespace hydroprint::daemon {
 
-/// Severity of a log line; the names are the values of the configuration key log.level.
-enum class LogLevel { kDebug, kInfo, kWarning, kError };
+/// Severity of a log line; the names are the values of the configuration key log.level. kCritical
+/// is never left out: a person must act at once.
+enum class LogLevel { kDebug, kInfo, kWarning, kError, kCritical };
 
 /// One key=value pair of a log line. Values with blanks, quotes or control characters are quoted
 /// and escaped, so untrusted text cannot add lines.

@@ -5,6 +5,7 @@
 
 #include "daemon/platform/log.h"
 #include "daemon/rig/to_proto_rig.h"
+#include "hardware/rig/state_names.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -38,12 +39,20 @@ void RigMonitor::look() {
   if (was_serving_ != serving) set_serving_(serving);
   was_serving_ = serving;
   log_scheduling(rig.link_quality());
+  log_stop(rig);
   const std::string state = v1::Rig::State_Name(rig.state()) + (serving ? "" : " " + rig.cause());
   if (std::exchange(state_, state) == state || gateway_.controller() == nullptr) return;
   log(serving ? LogLevel::kInfo : LogLevel::kWarning, "rig_state",
       {{"state", v1::Rig::State_Name(rig.state())},
        {"cause", rig.cause()},
        {"message", rig.trouble()}});
+}
+
+// Written once for each time that the drive does not obey a stop.
+void RigMonitor::log_stop(const v1::Rig& rig) {
+  const bool is_ignored = rig.cause() == rig::name(rig::Cause::kStopNotObeyed);
+  if (std::exchange(is_stop_ignored_, is_ignored) || !is_ignored) return;
+  log(LogLevel::kCritical, "rig_stop_not_obeyed", {{"message", rig.trouble()}});
 }
 
 // A warning if the system refused something, because the rig may then stop with LINK_LOST while the

@@ -12,7 +12,8 @@
 namespace hydroprint::daemon {
 
 /// Monitors the rig ten times a second. Ends a jog whose lease has expired, and reports when the
-/// rig becomes usable or unusable, and once how the system schedules the control loop. Writes log
+/// rig becomes usable or unusable or does not obey a stop, and once how the system schedules the
+/// control loop. Writes log
 /// entries for threads that must not wait for the log, and makes RigReference check for homing.
 class RigMonitor {
  public:
@@ -23,6 +24,7 @@ class RigMonitor {
  private:
   void look();
   void log_scheduling(const v1::LinkQuality& link);
+  void log_stop(const v1::Rig& rig);
 
   RigGateway& gateway_;
   RigReference& places_;
@@ -30,6 +32,7 @@ class RigMonitor {
   std::optional<bool> was_serving_;
   std::string state_;  // last logged state
   bool is_scheduling_logged_ = false;
+  bool is_stop_ignored_ = false;
   PeriodicThread thread_;
 };
 

@@ -147,6 +147,9 @@ void set_alarm(const drive::DriveProfile& profile, int code, v1::Rig& out) {
 }
 
 std::string trouble_of(const rig::Controller& controller, const rig::Condition& condition) {
+  // Comes first, because a person must act now.
+  const bool is_stop_ignored = condition.cause == rig::Cause::kStopNotObeyed;
+  if (is_stop_ignored) return rig::failed(condition.cause).message;
   if (const auto trouble = controller.trouble()) return trouble->message;
   if (condition.cause != rig::Cause::kNone) return rig::failed(condition.cause).message;
   return "";

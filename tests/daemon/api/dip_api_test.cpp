@@ -284,6 +284,18 @@ TEST_F(DipApi, StopByAnotherClientEndsTheMotion) {
   EXPECT_EQ(ann.rig().state(), v1::Rig::IDLE);
 }
 
+TEST_F(DipApi, AStopThatIsNotObeyedIsNamedInEventAndReport) {
+  const std::string name = descending();
+  rig.act("press deaf");
+  ASSERT_TRUE(ann.stop().ok());
+  ASSERT_TRUE(ann.wait_for_end(name).has_end_time());
+  for (const std::string& words :
+       {ann.events(name).back().message(), ann.report(name).at("message").get<std::string>()}) {
+    EXPECT_NE(words.find("PRESS THE STOP BUTTON ON THE RIG"), std::string::npos) << words;
+    EXPECT_NE(words.find("skim the rest"), std::string::npos) << words;
+  }
+}
+
 TEST_F(DipApi, StopAtRestDoesNotEndTheDip) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::START_DIP);

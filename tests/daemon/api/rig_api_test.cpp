@@ -408,6 +408,21 @@ TEST_F(RigApi, TheLogTellsWhatTheControlLoopGot) {
       << daemon.log();
 }
 
+TEST_F(RigApi, AStopThatIsNotObeyedIsLoggedOnceAsCritical) {
+  ann.make_ready();
+  ASSERT_TRUE(ann.move_to(200).ok());
+  rig.act("press deaf");
+  ASSERT_TRUE(ann.stop().ok());
+  const std::string entry = "level=critical event=rig_stop_not_obeyed message=\"the drive";
+  ASSERT_TRUE(wait_until([&] { return daemon.log().find(entry) != std::string::npos; }));
+  // The cause stays while the link is silent, lost and back, and so do its words.
+  ASSERT_TRUE(ann.becomes(v1::Rig::FAULT));
+  EXPECT_EQ(ann.rig().cause(), "STOP_NOT_OBEYED");
+  EXPECT_NE(ann.rig().trouble().find("PRESS THE STOP BUTTON ON THE RIG"), std::string::npos);
+  const std::string log = daemon.log();
+  EXPECT_EQ(log.find("level=critical"), log.rfind("level=critical"));
+}
+
 TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
   ann.make_ready();
   std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
