@@ -116,6 +116,16 @@ TEST_F(DipCli, CtrlCDuringTheDescentStopsTheAxis) {
   EXPECT_LT(programs_.rig.position_mm(), 100);
 }
 
+TEST_F(DipCli, AStopThatIsNotObeyedRingsTheBell) {
+  Terminal dip_at(programs_.command(dip({"--yes-to-all"}, "100")));
+  ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
+  ASSERT_TRUE(programs_.moves());
+  programs_.rig.act("press deaf");
+  dip_at.type("\x03");
+  EXPECT_TRUE(dip_at.shows("\ahydroprint: PRESS THE STOP BUTTON ON THE RIG")) << dip_at.screen();
+  EXPECT_NE(dip_at.wait(), 0);
+}
+
 TEST_F(DipCli, TheDipContinuesWhenTheClientIsKilled) {
   Terminal dip_at(programs_.command(dip({"--yes-to-all"})));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -178,6 +179,46 @@ TEST_F(RigCli, AFailedMoveReportsTheReason) {
   const auto ended = move.wait();
   EXPECT_EQ(ended.status, 4);
   EXPECT_NE(ended.err.find("stop button"), std::string::npos) << ended.err;
+}
+
+constexpr char kPressButton[] = "hydroprint: PRESS THE STOP BUTTON ON THE RIG";
+
+TEST_F(RigCli, AStopThatIsNotObeyedRingsTheBellOnce) {
+  programs_.make_ready(6);
+  Terminal watch(programs_.command({"rig", "watch"}));
+  ASSERT_TRUE(watch.shows("IDLE")) << watch.screen();
+  Terminal move(programs_.command({"rig", "move", "200", "--speed", "10"}));
+  ASSERT_TRUE(programs_.moves());
+  programs_.rig.act("press deaf");
+  const auto stop = programs_.client({"rig", "stop"}, "passer-by");
+  EXPECT_EQ(stop.status, 4);
+  EXPECT_EQ(stop.err.find(kPressButton), 0U) << stop.err;
+  EXPECT_EQ(stop.err.find('\a'), std::string::npos) << "this is not a terminal";
+  EXPECT_TRUE(move.shows(std::string("\a") + kPressButton)) << move.screen();
+  EXPECT_EQ(move.wait(), 4);
+  EXPECT_TRUE(move.shows("then reset, arm and home")) << move.screen();
+  EXPECT_TRUE(watch.shows(std::string("\a") + kPressButton)) << watch.screen();
+  // The drive's watchdog has acted.
+  EXPECT_TRUE(watch.shows("FAULT")) << watch.screen();
+  EXPECT_EQ(std::count(watch.screen().begin(), watch.screen().end(), '\a'), 1);
+  const auto status = programs_.client({"rig", "status"});
+  EXPECT_NE(status.out.find("PRESS THE STOP BUTTON ON THE RIG"), std::string::npos) << status.out;
+  const auto alarm = status.out.find("alarm 48 communication timeout");
+  EXPECT_NE(alarm, std::string::npos) << status.out;
+  EXPECT_EQ(status.out.find("alarm 48", alarm + 1), std::string::npos) << status.out;
+}
+
+TEST_F(RigCli, CtrlCTellsThatTheStopIsNotObeyed) {
+  programs_.make_ready(6);
+  Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
+  ASSERT_TRUE(programs_.moves());
+  programs_.rig.act("press deaf");
+  move.signal(SIGINT);
+  const auto ended = move.wait();
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_EQ(ended.err.find("the axis was stopped"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(kPressButton), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("then reset, arm and home"), std::string::npos) << ended.err;
 }
 
 TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {

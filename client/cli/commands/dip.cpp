@@ -15,6 +15,7 @@
 #include "client/cli/rig_session/dip_guide.h"
 #include "client/cli/rig_session/dip_steps.h"
 #include "client/cli/rig_session/held_lease.h"
+#include "client/cli/rig_session/stop_alarm.h"
 #include "client/cli/terminal/console.h"
 #include "client/cli/terminal/terminal.h"
 #include "client/jobs.h"
@@ -49,14 +50,16 @@ Result<v1::Job> abort_dip(const Program& program, const std::string& job) {
   return client::watch_job(daemon, job, [](const v1::WatchJobResponse&) {});
 }
 
-Result<v1::Job> follow(Program& program, const HeldLease& lease, const v1::Job& job) {
-  if (!job.dip().yes_to_all()) return guide(program, lease, job);
+Result<v1::Job> follow(Program& program, const HeldLease& lease, const v1::Job& job,
+                       StopAlarm& alarm) {
+  if (!job.dip().yes_to_all()) return guide(program, lease, job, alarm);
   return follow_job(program, job.name(), {});
 }
 
 // Guides or follows the dip to its end; aborts it on Ctrl-C.
-Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::Job& job) {
-  auto ended = follow(program, lease, job);
+Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::Job& job,
+                           StopAlarm& alarm) {
+  auto ended = follow(program, lease, job, alarm);
   if (ended || ended.error().code != Code::kCancelled) return ended;
   if (!program.is_interrupted()) return ended;  // the terminal was closed, and the dip continues
   std::cerr << "aborting " << job.name() << std::endl;
@@ -98,7 +101,9 @@ Status dip(Program& program, const DipOptions& options) {
     print_dip(program, job);
     return {};
   }
-  auto ended = go_through(program, *lease, job);
+  StopAlarm alarm;
+  auto ended = go_through(program, *lease, job, alarm);
+  alarm.look(program);
   if (!ended) {  // the dip continues and may need confirmations
     lease->leave();
     return tl::unexpected(std::move(ended).error());

@@ -18,6 +18,7 @@
 #include "client/cli/rig_session/held_lease.h"
 #include "client/cli/rig_session/jog.h"
 #include "client/cli/rig_session/motion.h"
+#include "client/cli/rig_session/stop_alarm.h"
 #include "client/cli/terminal/console.h"
 
 namespace hydroprint::cli {
@@ -37,9 +38,11 @@ Status show(const Program& program, const Result<v1::Rig>& rig, bool whole = fal
 
 Status watch(Program& program, double rate_hz) {
   RigDisplay display(STDOUT_FILENO);
+  StopAlarm alarm;
   for (bool seen = false;;) {
     const Status watched = client::watch_rig(program.daemon(), rate_hz, [&](const v1::Rig& rig) {
       seen = true;
+      alarm.look(rig);
       program.json() ? print(rig) : display.update(rig);
       return static_cast<bool>(std::cout);
     });
@@ -166,14 +169,20 @@ void add_jog(CLI::App& parent, Program& program) {
   program.on(*command, [&program, options] { return jog(program, *options); });
 }
 
+// Waits, because only then it is known whether the drive obeys.
+Status stop(const Program& program) {
+  StopAlarm alarm;
+  const auto rig = stop_and_wait(program, alarm);
+  if (rig) HP_RETURN_IF_ERROR(stop_obeyed(*rig));
+  return show(program, rig);
+}
+
 void add_stop(CLI::App& parent, Program& program) {
   CLI::App* command = parent.add_subcommand("stop", "Stop any motion; needs no lease");
   command->footer(
-      "This is not an emergency stop. The emergency stop is the button that cuts the power.");
-  program.on(*command, [&program] {
-    client::Connection daemon = program.uninterrupted();
-    return show(program, client::stop_rig(daemon));
-  });
+      "This is not an emergency stop. The emergency stop is the button that cuts the power.\n"
+      "Waits up to 2 s until the axis is at rest. Fails if the drive does not obey.");
+  program.on(*command, [&program] { return stop(program); });
 }
 
 }  // namespace

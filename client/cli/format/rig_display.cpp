@@ -12,13 +12,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Returns two spaces and the fault. If the daemon reports no fault: the cause and the drive's
-// alarm, if there are any.
+// Returns the fault, or at least its cause, and the drive's alarm, each after two spaces.
 std::string trouble(const v1::Rig& rig) {
-  if (!rig.trouble().empty()) return "  " + printable(rig.trouble());
-  std::string text = rig.cause().empty() ? "" : "  " + rig.cause();
+  const std::string fault = rig.trouble().empty() ? rig.cause() : printable(rig.trouble());
+  std::string text = fault.empty() ? "" : "  " + fault;
   if (rig.alarm_code() != 0)
-    text += fmt::format("  alarm {} {}", rig.alarm_code(), rig.alarm_text());
+    text += fmt::format("  alarm {} {}", rig.alarm_code(), printable(rig.alarm_text()));
   return text;
 }
 

@@ -102,11 +102,12 @@ bool waits(const v1::Job& job) {
 
 class Guide {
  public:
-  Guide(Program& program, const HeldLease& lease, v1::Job job)
+  Guide(Program& program, const HeldLease& lease, v1::Job job, StopAlarm& alarm)
       : program_(program),
         daemon_(program.daemon()),
         lease_(lease),
         watched_(program, std::move(job)),
+        alarm_(alarm),
         line_(STDERR_FILENO) {}
 
   Result<v1::Job> run() {
@@ -205,19 +206,25 @@ class Guide {
     if (!answer && answer.error().code != Code::kCancelled)
       line_.say("  REFUSED: " + in_our_words(answer.error()).message);
     if (!answer) jogger_->press(Key::kOther, Clock::now());
-    if (answer && *answer) rig_ = std::move(**answer);
+    if (answer && *answer) see(std::move(**answer));
   }
 
   void look_at_rig() {
     if (Clock::now() - looked_ < kRigPollInterval || (jogger_ && jogger_->is_held())) return;
     looked_ = Clock::now();
-    if (auto rig = client::get_rig(daemon_)) rig_ = std::move(*rig);
+    if (auto rig = client::get_rig(daemon_)) see(std::move(*rig));
+  }
+
+  void see(v1::Rig rig) {
+    rig_ = std::move(rig);
+    alarm_.look(rig_);
   }
 
   const Program& program_;
   client::Connection& daemon_;
   const HeldLease& lease_;
   WatchedJob watched_;
+  StopAlarm& alarm_;
   ProgressLine line_;
   Keyboard keyboard_;
   std::optional<v1::DipStatus> shown_;
@@ -231,8 +238,8 @@ class Guide {
 
 }  // namespace
 
-Result<v1::Job> guide(Program& program, const HeldLease& lease, v1::Job job) {
-  return Guide(program, lease, std::move(job)).run();
+Result<v1::Job> guide(Program& program, const HeldLease& lease, v1::Job job, StopAlarm& alarm) {
+  return Guide(program, lease, std::move(job), alarm).run();
 }
 
 }  // namespace hydroprint::cli

@@ -12,6 +12,7 @@
 #include "client/cli/rig_session/held_lease.h"
 #include "client/cli/rig_session/jogger.h"
 #include "client/cli/rig_session/motion.h"
+#include "client/cli/rig_session/stop_alarm.h"
 #include "client/cli/terminal/console.h"
 
 namespace hydroprint::cli {
@@ -28,14 +29,15 @@ void sleep_until(Program& program, Clock::time_point time) {
 }
 
 // Sends a jog command every 100 ms, until the time is over.
-Status jog_for(Program& program, const std::string& lease_id, double speed_mm_per_s,
-               double time_s) {
+Status jog_for(Program& program, StopAlarm& alarm, const std::string& lease_id,
+               double speed_mm_per_s, double time_s) {
   RigDisplay display(STDERR_FILENO);
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                       std::chrono::duration<double>(time_s));
   for (auto next = Clock::now(); next < end && !program.is_interrupted();) {
     HP_ASSIGN_OR_RETURN(const auto rig,
                         client::jog_rig(program.daemon(), lease_id, speed_mm_per_s));
+    alarm.look(rig);
     display.update(rig);
     next = std::min(next + Jogger::kPeriod, end);
     sleep_until(program, next);
@@ -44,7 +46,8 @@ Status jog_for(Program& program, const std::string& lease_id, double speed_mm_pe
 }
 
 // Jogs while keys are held, until q or Ctrl-C.
-Status jog_by_keys(Program& program, const std::string& lease_id, double speed_mm_per_s) {
+Status jog_by_keys(Program& program, StopAlarm& alarm, const std::string& lease_id,
+                   double speed_mm_per_s) {
   std::cerr << "hold Down or j: down; hold Up or k: up; + and -: faster, slower; q: quit; other "
                "keys, or none: stop"
             << std::endl;
@@ -64,12 +67,13 @@ Status jog_by_keys(Program& program, const std::string& lease_id, double speed_m
       HP_ASSIGN_OR_RETURN(rig, client::get_rig(program.daemon()));
       looked = Clock::now();
     }
+    alarm.look(rig);
     line.show(rig_line(rig) + "   " + jogger.text());
   }
   return {};
 }
 
-Status jog_as_told(Program& program, const JogOptions& options) {
+Status jog_as_told(Program& program, StopAlarm& alarm, const JogOptions& options) {
   if (!options.time_s && !Keyboard::is_there())
     return fail(Code::kInvalidArgument,
                 "jogging with keys needs a terminal; use --speed MM/S and --for TIME");
@@ -77,21 +81,25 @@ Status jog_as_told(Program& program, const JogOptions& options) {
     return fail(Code::kInvalidArgument, "--for requires --speed MM/S, positive for down");
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
   if (options.time_s)
-    return jog_for(program, lease->id(), *options.speed_mm_per_s, *options.time_s);
-  return jog_by_keys(program, lease->id(),
+    return jog_for(program, alarm, lease->id(), *options.speed_mm_per_s, *options.time_s);
+  return jog_by_keys(program, alarm, lease->id(),
                      std::abs(options.speed_mm_per_s.value_or(kSpeedByKeys_mm_per_s)));
 }
 
 }  // namespace
 
 Status jog(Program& program, const JogOptions& options) {
-  const Status jogged = jog_as_told(program, options);
+  StopAlarm alarm;
+  const Status jogged = jog_as_told(program, alarm, options);
   const bool cancelled = program.is_interrupted();
   // A jog that was refused needs no stop. When jogging with keys, the stop was sent when the key
-  // was released.
+  // was released. A motion in progress may be this jog, which somebody else has stopped.
   const bool lost = !jogged && jogged.error().code == Code::kUnavailable;
-  if (!jogged && !cancelled && !lost) return jogged;
-  const auto rig = options.time_s ? stop_and_wait(program) : wait_for_rest(program);
+  const bool refused = !jogged && !cancelled && !lost;
+  if (refused && jogged.error().reason != "MOTION_IN_PROGRESS") return jogged;
+  const bool is_stopped = refused || !options.time_s;
+  const auto rig = is_stopped ? wait_for_rest(program, alarm) : stop_and_wait(program, alarm);
+  if (rig) HP_RETURN_IF_ERROR(stop_obeyed(*rig));
   if (!jogged && !cancelled) return jogged;
   if (!rig) return tl::unexpected(rig.error());
   if (cancelled) return fail(Code::kCancelled, "interrupted: the axis was stopped");
