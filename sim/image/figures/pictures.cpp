@@ -71,6 +71,7 @@ Range range_of(const Quantity& quantity) {
     range.step = step;
     if (top - quantity.rest <= 6 * step) break;
   }
+  while (top - quantity.rest > 6 * range.step) range.step *= 10;
   range.low = std::min(quantity.rest, std::floor(at(0.02) / range.step + 1e-9) * range.step);
   range.high = std::ceil(top / range.step - 1e-9) * range.step;
   return range;
