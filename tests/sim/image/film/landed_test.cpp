@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <set>
 
 #include "sim/image/figures/pictures.h"
@@ -181,6 +183,27 @@ TEST(Pictures, AreDrawnEvenWithoutReachedOrFiniteValues) {
   const auto views = find_views(printed.surface, Pose::Identity(), map.tiles, {});
   ASSERT_TRUE(views);
   EXPECT_TRUE(stretch_picture(*views, map.surface, {}));
+}
+
+TEST(Pictures, HaveAFewLabelsHoweverLargeTheStretch) {
+  const Printed printed;
+  flow::FlowMap map;
+  map.tiles = printed.tiles;
+  const auto views = find_views(printed.surface, Pose::Identity(), map.tiles, {});
+  ASSERT_TRUE(views);
+  const auto ink_of_labels = [&](double stretch) {
+    map.surface.stretch.assign(printed.surface.points.size(), stretch);
+    const auto sheet = stretch_picture(*views, map.surface, {});
+    if (!sheet) return std::ptrdiff_t{0};
+    constexpr int kLegendRows = 60;  // below the coloured bar, with margin
+    std::ptrdiff_t ink = 0;
+    for (int y = sheet->height - kLegendRows; y < sheet->height; ++y)
+      for (int x = 0; x < sheet->width; ++x) ink += *sheet->at(x, y) < 100 ? 1 : 0;  // its red
+    return ink;
+  };
+  const auto usual = ink_of_labels(1.5);
+  EXPECT_GT(usual, 100);
+  EXPECT_LT(ink_of_labels(5e6), 3 * usual);
 }
 
 }  // namespace
