@@ -176,7 +176,8 @@ Status Drive::read_part(const Block& block, const Part& part, Polled& polled) {
 Status Drive::read_block(const Block& block, Polled& polled) {
   polled.blocks.emplace_back(block.count);
   Status done = read_part(block, {block.address, block.count}, polled);
-  if (done || polled.repeated || !is_bad_reply(done.error())) return done;
+  const bool may_repeat = !polled.repeated && Clock::now() < polled.repeat_until;
+  if (done || !may_repeat || !is_bad_reply(done.error())) return done;
   polled.repeated = true;
   const std::vector<Part> parts = parts_of(profile_, block);
   if (parts.empty()) return done;
@@ -187,13 +188,14 @@ Status Drive::read_block(const Block& block, Polled& polled) {
   return {};
 }
 
-Result<DriveState> Drive::poll() {
+Result<DriveState> Drive::poll(Clock::time_point repeat_until) {
   if (!connected()) {
     known_ = false;
     return fail(Code::kUnavailable, profile_.name + " is not connected. Connect to it first",
                 "RIG_OFFLINE");
   }
   Polled polled;
+  polled.repeat_until = repeat_until;
   for (const Block& block : profile_.blocks) HP_RETURN_IF_ERROR(read_block(block, polled));
   DriveState state = decode_state(profile_, polled.blocks);
   state.time = polled.time;

@@ -74,7 +74,9 @@ class Drive {
   /// Reads all blocks and checks their marks. If a reply is damaged, missing or late, reads that
   /// block again at once, in other parts (block_parts.h). Does so for one block only, so the
   /// duration stays within recovery_time_s (link_budget.h) if no other reply is bad.
-  [[nodiscard]] Result<DriveState> poll();
+  /// @param repeat_until  after this time, nothing is read again, because the caller will not wait
+  [[nodiscard]] Result<DriveState> poll(std::chrono::steady_clock::time_point repeat_until =
+                                            std::chrono::steady_clock::time_point::max());
 
   [[nodiscard]] Status enable();
   [[nodiscard]] Status disable();
@@ -106,6 +108,7 @@ class Drive {
     std::chrono::steady_clock::time_point time;  // of the position
     std::chrono::steady_clock::duration spread{};
     bool repeated = false;  // a block has been read again
+    std::chrono::steady_clock::time_point repeat_until;
   };
 
   [[nodiscard]] Status check_identity();

@@ -46,7 +46,9 @@ LinkMonitor::Look LinkMonitor::look() {
   if (inspect_ || !drive_.connected()) {
     if (Status done = connect(); !done) return miss(std::move(done).error());
   }
-  auto axis = drive_.poll();
+  const auto stale =
+      std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kStale_s));
+  auto axis = drive_.poll(up_ ? clean_ + stale : TimePoint::max());
   if (!axis) return miss(std::move(axis).error());
   const auto kind = fresh_ ? Event::Kind::kSeen : Event::Kind::kSample;
   up_ = true;
