@@ -332,6 +332,7 @@ Status ControlLoop::send_surely(const std::function<Status()>& send) {
   Status sent = send();
   if (sent || !may_have_arrived(sent.error())) return sent;
   const auto seen = link_monitor_.look();
+  if (seen.event && seen.event->kind == Kind::kLost) lose();
   if (!seen.axis) return sent;
   apply(*seen.event);
   if (!in_motion(condition_.state)) return sent;

@@ -118,8 +118,8 @@ bool take_count(Words words, std::size_t at, ReplyFault& reply_fault) {
 std::optional<Action> parse_strike(const Words& words) {
   Action out;
   out.kind = Action::Kind::kReplyFault;
-  if (words.size() == 1 && words[0] == "silent") {
-    out.reply_fault = {ReplyFaultKind::kDropRequest, milliseconds(0), -1};
+  if (words == Words{"silent"} || words == Words{"silent", "writes"}) {
+    out.reply_fault = {ReplyFaultKind::kDropRequest, milliseconds(0), -1, words.size() == 2};
     return out;
   }
   const auto fault = look_up(kFaults, words[0]);
@@ -235,7 +235,7 @@ std::optional<Action> parse_words(Words words) {
 std::string_view action_help() {
   return "[fault] late DURATION [COUNT|all] [writes], [fault] "
          "drop|double|truncate|wrong-id|wrong-function|wrong-crc|"
-         "wrong-length|busy [COUNT|all] [writes], silent, press|release "
+         "wrong-length|busy [COUNT|all] [writes], silent [writes], press|release "
          "stop|positive-end|negative-end|stall|"
          "freeze|deaf|runaway|drift, stall, freeze, deaf, runaway, drift, unplug, replug, reboot "
          "[DURATION], "

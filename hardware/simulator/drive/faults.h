@@ -31,7 +31,7 @@ struct ReplyFault {
   ReplyFaultKind fault = ReplyFaultKind::kNone;
   std::chrono::milliseconds delay{0};
   int count = 1;             ///< negative: until cleared
-  bool writes_only = false;  ///< replies to reads are not affected
+  bool writes_only = false;  ///< begins at a write; only kDropRequest then goes on with reads
 };
 
 /// An action on the rig.

@@ -84,6 +84,7 @@ void Plant::update_registers() {
 
 ReplyFault Plant::next_fault(bool is_write) {
   if (fault_.count == 0 || (fault_.writes_only && !is_write)) return {};
+  if (fault_.fault == ReplyFaultKind::kDropRequest) fault_.writes_only = false;
   if (fault_.count > 0) --fault_.count;
   return fault_;
 }

@@ -188,6 +188,17 @@ TEST_P(Fault, AFrozenPositionIsAFollowingError) {
   expect_the_long_way_back(rig);
 }
 
+TEST_P(Fault, ADriveThatFallsSilentAtACommandIsALostLink) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  rig.drive().act("silent writes");
+  EXPECT_EQ(refusal(rig->move_to(20, 10)), "RIG_OFFLINE");
+  EXPECT_TRUE(rig.becomes(State::kOffline));
+  EXPECT_EQ(rig.cause(), Cause::kLinkLost);
+  rig.drive().act("clear");
+  expect_the_long_way_back(rig);
+}
+
 /// Expects STOP_NOT_OBEYED, and the drive's watchdog to bring the axis to rest.
 void expect_that_the_watchdog_stops(WiredRig& rig) {
   ASSERT_TRUE(wait_until([&] { return rig.cause() == Cause::kStopNotObeyed; }, 2));
