@@ -141,7 +141,7 @@ Status Connection::open_serial() {
   return {};
 }
 
-/// Waits for an event; false if there is none until the given time.
+/// Waits for an event. Returns false if none has occurred by the given time.
 bool Connection::wait(short events, TimePoint until) const {
   for (;;) {
     const auto left = std::max(until - Clock::now(), Clock::duration::zero());

@@ -117,7 +117,7 @@ struct Watchdog {
 
 /// How a bus differs from plain Modbus.
 struct BusVariant {
-  bool echo = false;          ///< the adapter repeats what is sent, before the drive's reply
+  bool echo = false;          ///< the adapter sends each request back, before the drive's reply
   bool unit_any = false;      ///< replies come from any unit, as those of some gateways do
   bool rtu_over_tcp = false;  ///< the gateway expects RTU frames over TCP
   /// The drive must not receive a request while the reply to an earlier one may still arrive.

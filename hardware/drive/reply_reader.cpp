@@ -107,7 +107,7 @@ ReplyReader::Found ReplyReader::look_further() {
 
 std::string ReplyReader::trouble() const {
   if (awaits_echo_ && first_frame(framing_, received_).kind == ReplyFrame::Kind::kWhole) {
-    return "the adapter does not repeat what is sent. Remove echo = true from the profile";
+    return "the adapter does not send requests back. Remove echo = true from the profile";
   }
   const bool is_rtu = framing_ == Framing::kTcp &&
                       first_frame(Framing::kRtu, received_).kind == ReplyFrame::Kind::kWhole;

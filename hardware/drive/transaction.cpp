@@ -200,7 +200,7 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const Request& re
       break;
     case Connection::End::kEcho:
       error.message = where +
-                      "the RS-485 adapter repeats what is sent (echo). Switch the adapter's echo "
+                      "the RS-485 adapter sends every request back (echo). Switch its echo "
                       "off, or set echo = true in the drive's profile";
       return tl::unexpected(std::move(error));
     default:

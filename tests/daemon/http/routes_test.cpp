@@ -187,7 +187,7 @@ TEST_F(HttpTest, MetricsCoverJobsRigAndServer) {
   EXPECT_TRUE(has("hydroprint_drive_damaged_replies_total 0\n"));
   EXPECT_TRUE(has("hydroprint_drive_unanswered_requests_total 0\n"));
   EXPECT_TRUE(has("hydroprint_drive_retried_reads_total 0\n"));
-  EXPECT_FALSE(has("hydroprint_drive_reply_seconds")) << "there is no drive";
+  EXPECT_FALSE(has("hydroprint_drive_reply_seconds")) << "without a drive";
   EXPECT_FALSE(has("hydroprint_rig_thread_scheduling")) << "there is no such thread";
   EXPECT_TRUE(has("hydroprint_rejected_logins_total 0\n"));
   EXPECT_TRUE(has("hydroprint_http_connections 1\n"));

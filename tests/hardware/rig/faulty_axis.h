@@ -12,7 +12,7 @@ namespace hydroprint::rig {
 /// What the rig does when a fault begins.
 enum class Doing { kUnhomed, kIdle, kHome, kJog, kMove, kDip, kStopping };
 
-/// What goes wrong with an axis or its drive.
+/// A fault of an axis or of its drive.
 enum class AxisFault {
   kNone,
   kRunaway,           ///< moves at 25 mm/s, away from home
@@ -33,7 +33,7 @@ enum class AxisFault {
   kStopIgnored,       ///< the drive acknowledges the stop and goes on at its speed
 };
 
-/// A row of the table of faults: what is noticed, and how soon.
+/// A row of the table of faults: a fault in a state, the cause to be named, and how soon.
 struct FaultRow {
   Doing doing;
   AxisFault fault;

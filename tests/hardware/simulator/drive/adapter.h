@@ -12,7 +12,7 @@ namespace hydroprint::simulated_drive {
 class Adapter {
  public:
   enum class Kind {
-    kEcho,        ///< serial line: repeats what is sent
+    kEcho,        ///< serial line: sends each request back
     kDeafEcho,    ///< the same, and the drive receives nothing
     kRtuOverTcp,  ///< TCP: passes RTU frames to the drive's serial line
     kUnit255,     ///< TCP: every reply comes from unit 255
