@@ -172,19 +172,25 @@ Status Drive::read_part(const Block& block, const Part& part, Polled& polled) {
   return {};
 }
 
-/// Reads a block. After a bad reply, reads it once more in other parts; for one block of each poll.
+Status Drive::read_parts(const Block& block, bool whole, Polled& polled) {
+  const Part all{block.address, block.count};
+  for (const Part& part : whole ? std::vector{all} : parts_of(profile_, block)) {
+    HP_RETURN_IF_ERROR(read_part(block, part, polled));
+  }
+  return {};
+}
+
+/// Reads a block: whole, or in parts as long as a late reply could be taken for that of the whole
+/// block. After a bad reply, reads it once more the other way; for one block of each poll.
 Status Drive::read_block(const Block& block, Polled& polled) {
   polled.blocks.emplace_back(block.count);
-  Status done = read_part(block, {block.address, block.count}, polled);
+  const bool whole = !link_->may_be_confused(read_request(block.space, block.address, block.count));
+  Status done = read_parts(block, whole, polled);
   const bool may_repeat = !polled.repeated && Clock::now() < polled.repeat_until;
   if (done || !may_repeat || !is_bad_reply(done.error())) return done;
   polled.repeated = true;
-  const std::vector<Part> parts = parts_of(profile_, block);
-  if (parts.empty()) return done;
   link_->count_retry();
-  for (const Part& part : parts) {
-    if (!read_part(block, part, polled)) return done;  // the first error names the cause
-  }
+  if (!read_parts(block, !whole, polled)) return done;  // the first error names the cause
   return {};
 }
 

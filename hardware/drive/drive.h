@@ -72,8 +72,9 @@ class Drive {
   [[nodiscard]] bool connected() const;
 
   /// Reads all blocks and checks their marks. If a reply is damaged, missing or late, reads that
-  /// block again at once, in other parts (block_parts.h). Does so for one block only, so the
-  /// duration stays within recovery_time_s (link_budget.h) if no other reply is bad.
+  /// block again at once, in other parts (block_parts.h), and the next polls read it in these parts
+  /// until that reply can no longer arrive. Reads only one block again, so the duration stays
+  /// within recovery_time_s (link_budget.h) if no other reply is bad.
   /// @param repeat_until  after this time, nothing is read again, because the caller will not wait
   [[nodiscard]] Result<DriveState> poll(std::chrono::steady_clock::time_point repeat_until =
                                             std::chrono::steady_clock::time_point::max());
@@ -118,6 +119,7 @@ class Drive {
   [[nodiscard]] Status may_move() const;
   [[nodiscard]] Status command(Command which, double position_mm, double speed_mm_per_s);
   [[nodiscard]] Status read_block(const Block& block, Polled& polled);
+  [[nodiscard]] Status read_parts(const Block& block, bool whole, Polled& polled);
   [[nodiscard]] Status read_part(const Block& block, const Part& part, Polled& polled);
   [[nodiscard]] Request read_request(Space space, std::uint16_t address, std::uint16_t count) const;
   [[nodiscard]] Result<std::vector<std::uint16_t>> read(Space space, std::uint16_t address,

@@ -43,6 +43,7 @@ class Link::Line {
   [[nodiscard]] Result<std::vector<std::uint16_t>> transact(const Request& request,
                                                             Urgency urgency);
   void distrust(const Request& request);
+  [[nodiscard]] bool may_be_confused(const Request& request) const;
 
   [[nodiscard]] const Endpoint& endpoint() const { return endpoint_; }
   [[nodiscard]] const LinkTiming& timing() const { return timing_; }
@@ -143,14 +144,15 @@ void Link::Line::after_failure(Connection::End end, const Request& request, Urge
   if (end == Connection::End::kLost || (urgency == Urgency::kStop && !endpoint_.serial)) drop();
 }
 
-/// A drive replies in the order of the requests, so no late reply can follow a valid one, unless
-/// this one may itself be late: a stop does not wait, and exceptions to reads look alike.
+/// A drive replies in the order of the requests, so after a valid reply no request waits for late
+/// ones, unless this one may itself be late: a stop does not wait, and exceptions to reads look
+/// alike.
 Result<std::vector<std::uint16_t>> Link::Line::after_reply(const Request& request,
                                                            bool is_ambiguous, Result<Words> reply) {
   {
     const std::scoped_lock lock(mutex_);
     is_ambiguous = is_ambiguous || (!reply && late_.expects_any(Clock::now()));
-    if (!is_ambiguous) late_.clear();
+    if (!is_ambiguous) late_.pass_over();
   }
   if (is_ambiguous) expect_late_reply(request);
   return reply;
@@ -175,6 +177,11 @@ void Link::Line::close() {
 void Link::Line::distrust(const Request& request) {
   counters_.add_damaged(1);
   expect_late_reply(request);
+}
+
+bool Link::Line::may_be_confused(const Request& request) const {
+  const std::scoped_lock lock(mutex_);
+  return framing_ == Framing::kRtu && late_.may_be_confused(request, Clock::now());
 }
 
 bool Link::Line::is_open() const {
@@ -260,6 +267,7 @@ void Link::close() { line_->close(); }
 bool Link::is_open() const { return line_->is_open(); }
 std::uint64_t Link::connections() const { return line_->connections(); }
 void Link::distrust(const Request& request) { line_->distrust(request); }
+bool Link::may_be_confused(const Request& request) const { return line_->may_be_confused(request); }
 LinkStatistics Link::statistics() const { return line_->counters().read(); }
 void Link::count_retry() { line_->counters().add_retry(); }
 const Endpoint& Link::endpoint() const { return line_->endpoint(); }

@@ -35,8 +35,8 @@ enum class Urgency {
 /// another request: TCP has transaction ids. RTU has none, so after a missing or damaged reply a
 /// request whose reply would look alike (replies_look_alike: a read of equally many words, or the
 /// same write) waits until no late reply can arrive (`worst_delay`, or until the drive has replied
-/// to another request, because drives reply in order). Other requests are sent at once, unless the
-/// drive forbids it (BusVariant::silence_after_bad_reply).
+/// to another request, because drives reply in order; see may_be_confused()). Other requests are
+/// sent at once, unless the drive forbids it (BusVariant::silence_after_bad_reply).
 ///
 /// Every call ends within `worst_delay` + `response` and the transmission time, plus `response` of
 /// another thread on the line. A request whose reply would not look like a missing one does not
@@ -71,6 +71,10 @@ class Link {
   /// Must be called if a well-formed reply to `request` has the wrong content: it belongs to
   /// another request, so the right one may still arrive.
   void distrust(const Request& request);
+
+  /// Returns whether a reply that is late and out of order, as a gateway may deliver it, could
+  /// still be taken for the reply to this request. Always false over TCP.
+  [[nodiscard]] bool may_be_confused(const Request& request) const;
 
   /// Returns how replies have arrived since the start. Does not wait for the line.
   [[nodiscard]] LinkStatistics statistics() const;

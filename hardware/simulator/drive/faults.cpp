@@ -18,10 +18,11 @@ namespace {
 using std::chrono::milliseconds;
 using Words = std::vector<std::string>;
 
-constexpr std::array<std::pair<std::string_view, ReplyFaultKind>, 9> kFaults = {{
+constexpr std::array<std::pair<std::string_view, ReplyFaultKind>, 10> kFaults = {{
     {"late", ReplyFaultKind::kLate},
     {"drop", ReplyFaultKind::kDrop},
     {"double", ReplyFaultKind::kDouble},
+    {"overtaken", ReplyFaultKind::kOvertaken},
     {"truncate", ReplyFaultKind::kTruncate},
     {"wrong-id", ReplyFaultKind::kWrongId},
     {"wrong-function", ReplyFaultKind::kWrongFunction},
@@ -234,7 +235,7 @@ std::optional<Action> parse_words(Words words) {
 
 std::string_view action_help() {
   return "[fault] late DURATION [COUNT|all] [writes], [fault] "
-         "drop|double|truncate|wrong-id|wrong-function|wrong-crc|"
+         "drop|double|overtaken|truncate|wrong-id|wrong-function|wrong-crc|"
          "wrong-length|busy [COUNT|all] [writes], silent [writes], press|release "
          "stop|positive-end|negative-end|stall|"
          "freeze|deaf|runaway|drift, stall, freeze, deaf, runaway, drift, unplug, replug, reboot "

@@ -17,6 +17,7 @@ enum class ReplyFaultKind {
   kLate,           ///< arrives `delay` later
   kDrop,           ///< never arrives
   kDouble,         ///< arrives twice
+  kOvertaken,      ///< arrives directly before the third reply that follows
   kTruncate,       ///< only half arrives
   kWrongId,        ///< reply of another unit
   kWrongFunction,  ///< reply of another function

@@ -10,6 +10,7 @@ namespace hydroprint::simulated_drive {
 namespace {
 
 constexpr int kPatience_ms = 1000;
+constexpr int kOvertaking = 2;  // replies
 
 /// CRC of Modbus over serial line 2.5.1.2, low byte first on the wire.
 std::uint16_t crc(std::span<const std::uint8_t> bytes) {
@@ -74,6 +75,20 @@ std::vector<std::uint8_t> tcp_frame(std::span<const std::uint8_t> header,
   out.push_back(static_cast<std::uint8_t>(reply.size() & 0xffU));
   out.insert(out.end(), reply.begin(), reply.end());
   return cut(std::move(out), fault);
+}
+
+std::vector<std::uint8_t> OvertakenReply::bytes_for(const std::vector<std::uint8_t>& frame,
+                                                    ReplyFaultKind fault) {
+  if (fault == ReplyFaultKind::kOvertaken) {
+    held_ = frame;
+    followers_ = 0;
+    return {};
+  }
+  std::vector<std::uint8_t> out;
+  if (!held_.empty() && !frame.empty() && ++followers_ > kOvertaking) held_.swap(out);
+  out.insert(out.end(), frame.begin(), frame.end());
+  if (fault == ReplyFaultKind::kDouble) out.insert(out.end(), frame.begin(), frame.end());
+  return out;
 }
 
 void write_all(int descriptor, std::span<const std::uint8_t> bytes) {

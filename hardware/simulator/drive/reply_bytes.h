@@ -18,6 +18,19 @@ namespace hydroprint::simulated_drive {
                                                   std::vector<std::uint8_t> reply,
                                                   ReplyFaultKind fault);
 
+/// Holds an overtaken reply (ReplyFaultKind::kOvertaken) until it is sent.
+class OvertakenReply {
+ public:
+  /// Returns the bytes to send for a frame: it, twice if it is doubled; or nothing, if it is the
+  /// one that is overtaken; or preceded by the one held back.
+  [[nodiscard]] std::vector<std::uint8_t> bytes_for(const std::vector<std::uint8_t>& frame,
+                                                    ReplyFaultKind fault);
+
+ private:
+  std::vector<std::uint8_t> held_;
+  int followers_ = 0;  // replies sent since it was held back
+};
+
 /// Writes all bytes to a descriptor, which may be non-blocking. Gives up if the descriptor is
 /// closed, or accepts nothing for 1 s.
 void write_all(int descriptor, std::span<const std::uint8_t> bytes);

@@ -13,7 +13,6 @@
 #include <cstring>
 
 #include "hardware/drive/serial_line.h"
-#include "hardware/simulator/drive/reply_bytes.h"
 #include "sim/base/process/real_time_thread.h"
 
 namespace hydroprint::simulated_drive {
@@ -102,16 +101,12 @@ void SerialServer::reply_to(std::size_t adu_bytes) {
   const auto request_end = begin + wire_time(line_, adu_bytes) + frame_gap(line_);
   std::this_thread::sleep_until(request_end);
   const Answer answer = plant_.answer(std::span(adu_).first(adu_bytes - kCrc));
-  const auto frame = serial_frame(answer.reply, answer.reply_fault.fault);
+  const ReplyFaultKind fault = answer.reply_fault.fault;
+  const auto frame = overtaken_.bytes_for(serial_frame(answer.reply, fault), fault);
   const auto reply_end = request_end + answer.reply_fault.delay + wire_time(line_, frame.size());
   std::this_thread::sleep_until(reply_end);
   write_all(master_, frame);
   free_at_ = reply_end + frame_gap(line_);
-  if (answer.reply_fault.fault != ReplyFaultKind::kDouble) return;
-  free_at_ += wire_time(line_, frame.size());
-  std::this_thread::sleep_until(free_at_);
-  write_all(master_, frame);
-  free_at_ += frame_gap(line_);
 }
 
 }  // namespace hydroprint::simulated_drive

@@ -8,6 +8,7 @@
 
 #include "hardware/drive/transaction.h"
 #include "hardware/simulator/drive/plant.h"
+#include "hardware/simulator/drive/reply_bytes.h"
 
 struct _modbus;
 
@@ -37,6 +38,7 @@ class SerialServer {
   int slave_ = -1;  // kept open, because otherwise reading from the master fails
   _modbus* modbus_ = nullptr;
   std::vector<std::uint8_t> adu_;
+  OvertakenReply overtaken_;
   // End of the silence that is required after the last reply.
   std::chrono::steady_clock::time_point free_at_;
   std::atomic<bool> ends_ = false;

@@ -24,6 +24,7 @@ void serve(Plant& plant, int descriptor) {
   const std::unique_ptr<modbus_t, Free> modbus(modbus_new_tcp("127.0.0.1", 0));
   modbus_set_socket(modbus.get(), descriptor);
   std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> adu{};
+  OvertakenReply overtaken;
   for (;;) {
     const int got = modbus_receive(modbus.get(), adu.data());
     if (got < static_cast<int>(kHeader) + 2) return;
@@ -32,9 +33,9 @@ void serve(Plant& plant, int descriptor) {
     if (answer.reply_fault.fault == ReplyFaultKind::kLate) {
       std::this_thread::sleep_for(answer.reply_fault.delay);
     }
-    const auto frame = tcp_frame(query.first(kHeader), answer.reply, answer.reply_fault.fault);
-    write_all(descriptor, frame);
-    if (answer.reply_fault.fault == ReplyFaultKind::kDouble) write_all(descriptor, frame);
+    const ReplyFaultKind fault = answer.reply_fault.fault;
+    const auto frame = tcp_frame(query.first(kHeader), answer.reply, fault);
+    write_all(descriptor, overtaken.bytes_for(frame, fault));
   }
 }
 

@@ -38,6 +38,21 @@ TEST(LateReplies, OnlyARequestWithTheSameReplyWaits) {
   EXPECT_EQ(late.clear_for(read_of(1, 9)), TimePoint{});
 }
 
+TEST(LateReplies, OneThatWasPassedOverIsNotWaitedForButRemembered) {
+  const TimePoint until = std::chrono::steady_clock::now() + std::chrono::hours(1);
+  const TimePoint before = until - std::chrono::seconds(1);
+  LateReplies late;
+  late.add(read_of(1, 9), until);
+  late.pass_over();
+  EXPECT_EQ(late.clear_for(read_of(1, 9)), TimePoint{});
+  EXPECT_FALSE(late.expects_any(before));
+  EXPECT_TRUE(late.may_be_confused(read_of(1, 9), before));
+  EXPECT_FALSE(late.may_be_confused(read_of(1, 5), before));
+  EXPECT_FALSE(late.may_be_confused(read_of(1, 9), until));
+  late.add(read_of(1, 9), until);
+  EXPECT_EQ(late.clear_for(read_of(1, 9)), until) << "missing again";
+}
+
 TEST(LateReplies, TheLatestOfEqualRequestsCounts) {
   const TimePoint until = std::chrono::steady_clock::now() + std::chrono::hours(1);
   LateReplies late;
