@@ -16,6 +16,7 @@
 #include "sim/image/layers/surface_paint.h"
 #include "sim/mesh/make_surface.h"
 #include "sim/pipeline/dip.h"
+#include "sim/pipeline/division.h"
 #include "sim/pipeline/figures.h"
 #include "sim/pipeline/ink_passes.h"
 #include "sim/pipeline/read_inputs.h"
@@ -25,10 +26,6 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// Dips whose orientations differ by less, apart from a turn about the vertical, are the same.
-constexpr double kSameOrientation_rad = 0.02;
-/// Factor on the stretch of a dip whose orientation an earlier one has.
-constexpr double kRepeatedStretch = 1e6;
 /// A share of the surface that no dip reaches, above which there is a warning.
 constexpr double kMostUnreached = 0.001;
 
@@ -78,34 +75,23 @@ Result<std::vector<PlannedDip>> stokes_dips(const mesh::Surface& surface,
   return out;
 }
 
-/// Returns the earlier dip that lowers the object in the same orientation as dip k, apart from a
-/// turn about the vertical; nullopt if there is none.
-std::optional<std::size_t> repeated_by(const std::vector<PlannedDip>& dips, std::size_t k) {
-  const auto down = [&](std::size_t i) -> Eigen::Vector3d {
-    return dips[i].X_FO.linear().row(2).transpose();
-  };
-  for (std::size_t j = 0; j < k; ++j) {
-    if (std::acos(std::clamp(down(k).dot(down(j)), -1.0, 1.0)) <= kSameOrientation_rad) return j;
-  }
-  return std::nullopt;
-}
-
-/// Returns the stretch by which the surface is divided: infinity where no film arrives. A repeated
-/// dip gets only what the earlier one does not reach; otherwise rounding would decide.
-plan::Stretch stretch_by_dip(const std::vector<PlannedDip>& dips) {
-  plan::Stretch out;
-  for (std::size_t k = 0; k < dips.size(); ++k) {
-    const double factor = repeated_by(dips, k) ? kRepeatedStretch : 1;
-    std::vector<double>& stretch = out.emplace_back(dips[k].map.stretch);
-    for (double& value : stretch)
-      value = std::isnan(value) ? std::numeric_limits<double>::infinity() : factor * value;
-  }
+std::vector<Pose> poses_of(const std::vector<PlannedDip>& dips) {
+  std::vector<Pose> out;
+  for (const PlannedDip& dip : dips) out.push_back(dip.X_FO);
   return out;
 }
 
+/// Returns the stretch by which the surface is divided: infinity where no film arrives.
+plan::Stretch stretch_by_dip(const std::vector<PlannedDip>& dips) {
+  plan::Stretch out;
+  for (const PlannedDip& dip : dips) out.push_back(dip.map.stretch);
+  return dividing_stretch(poses_of(dips), std::move(out));
+}
+
 void warn_of_repeats(const Plan& plan, Warnings& warnings) {
-  for (std::size_t k = 1; k < plan.dips.size(); ++k) {
-    const auto earlier = repeated_by(plan.dips, k);
+  const std::vector<Pose> X_FO = poses_of(plan.dips);
+  for (std::size_t k = 1; k < X_FO.size(); ++k) {
+    const auto earlier = repeated_by(X_FO, k);
     if (!earlier) continue;
     warnings.push_back({"dip_repeated",
                         fmt::format("{} lowers the object in the same orientation as {}, so it "
@@ -177,7 +163,7 @@ Status draw_pictures(const Plan& plan, const Dip& dip, const film::Outline& outl
   context.progress("pictures", 0);
   HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
-  HP_ASSIGN_OR_RETURN(out.images.stretch, image::stretch_picture(views, dip.map.surface, context));
+  HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(views, dip.map.surface, context));
   HP_ASSIGN_OR_RETURN(const auto film,
                       image::FilmTexture::from_image(out.images.film, outline,
                                                      image::kPictureFilmSide_px, context));
@@ -219,10 +205,10 @@ Result<Plan> make_plan(const PlanOptions& options, const Context& context) {
   HP_ASSIGN_OR_RETURN(auto both, run_beside(context, solve, paint));
   out.dips = std::move(both.first);
   out.paint = std::move(both.second);
-  HP_ASSIGN_OR_RETURN(out.regions,
-                      plan::make_regions(out.surface, stretch_by_dip(out.dips), {}, context));
-  HP_ASSIGN_OR_RETURN(
-      out.weights, plan::BlendWeights::create(out.surface, out.regions, options.blend_mm, context));
+  HP_ASSIGN_OR_RETURN(Division division,
+                      divide(out.surface, stretch_by_dip(out.dips), options.blend_mm, context));
+  out.regions = std::move(division.regions);
+  out.weights = std::move(division.weights);
   out.dip_at = plan::dips_at_points(out.surface, out.regions.fragments);
   HP_ASSIGN_OR_RETURN(out.weights_at, out.weights.at_points(out.surface, context));
   HP_ASSIGN_OR_RETURN(const image::SurfacePaint fitted,
@@ -235,32 +221,16 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
                            const Context& context) {
   const auto k = static_cast<std::size_t>(number - 1);
   const film::Outline& outline = options.dip.outline;
-  const image::Weight weight = [&](int triangle, const Eigen::Vector3d& at) {
-    return static_cast<float>(plan.weights.of_dip(number, triangle, at));
-  };
   HP_ASSIGN_OR_RETURN(const image::SurfacePaint paint,
                       image::SurfacePaint::fit(plan.paint, plan.surface, context));
-  const auto draw = [&](const mesh::Surface& surface,
-                        const std::vector<flow::MappedTriangle>& tiles, double dpi,
-                        const Context& drawing) -> Result<DipImages> {
-    DipImages images;
-    HP_ASSIGN_OR_RETURN(images.complete,
-                        image::film_image(surface, tiles, paint, outline, dpi, drawing));
-    HP_ASSIGN_OR_RETURN(images.mask, image::film_mask(tiles, weight, outline, dpi, drawing));
-    images.film = image::seen_through(images.mask, images.complete);
-    return images;
-  };
-  const FilmDrawing draw_film = [&](const auto& surface, const auto& tiles, double dpi,
-                                    const Context& drawing) -> Result<image::RgbImage> {
-    HP_ASSIGN_OR_RETURN(DipImages images, draw(surface, tiles, dpi, drawing));
-    return std::move(images.film);
-  };
-  auto found = final_dip(plan, options, k, draw_film, context);
+  const DipShare share{paint, plan.weights, number};
+  auto found = final_dip(plan, options, k, drawing_of(share, outline), context);
   if (!found) return tl::unexpected(located(std::move(found.error()), k));
   Dip& dip = *found;
 
   DipPrint out;
-  HP_ASSIGN_OR_RETURN(out.images, draw(dip.surface, dip.map.tiles, options.dpi, context));
+  HP_ASSIGN_OR_RETURN(out.images,
+                      draw_share(share, dip.surface, dip.map.tiles, outline, options.dpi, context));
   HP_RETURN_IF_ERROR(draw_pictures(plan, dip, outline, out, context));
   out.map = std::move(dip.map.surface);
   out.own = dip.figures;

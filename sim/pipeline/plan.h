@@ -13,6 +13,7 @@
 #include "sim/image/layers/layered_paint.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
+#include "sim/pipeline/dip_images.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/plan/blend.h"
 #include "sim/plan/regions.h"
@@ -63,21 +64,14 @@ struct Plan {
 /// a model without colours.
 [[nodiscard]] Result<Plan> make_plan(const PlanOptions& options, const Context& context);
 
-/// The images of one dip, and its picture.
-struct DipImages {
-  image::RgbImage complete;  ///< the film image if this dip printed everything that it reaches
-  image::RgbImage mask;      ///< grey: the dip's weight; 0 where no film lands
-  image::RgbImage film;      ///< the image to print: complete, seen through the mask
-  image::RgbImage stretch;   ///< picture of the stretch on the object
-};
-
 /// One dip of a plan with its final flow.
 struct DipPrint {
   DipImages images;
-  image::LandedInk ink;  ///< that its film leaves on the object, seen as in combined_picture()
-  flow::SurfaceMap map;  ///< final: with the ink of the image if the model is the sheet
-  DipFigures own;        ///< its shares and stretch are those of the dip's region
-  Warnings warnings;     ///< where the result in the region cannot be trusted
+  image::RgbImage stretch;  ///< picture of the stretch on the object
+  image::LandedInk ink;     ///< that its film leaves on the object, seen as in combined_picture()
+  flow::SurfaceMap map;     ///< final: with the ink of the image if the model is the sheet
+  DipFigures own;           ///< its shares and stretch are those of the dip's region
+  Warnings warnings;        ///< where the result in the region cannot be trusted
 };
 
 /// Computes the images of a dip, from 1: for the sheet, with the ink of the image itself.

@@ -11,6 +11,7 @@
 #include "sim/image/layers/layered_paint.h"
 #include "sim/mesh/model.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/plan_share.h"
 
 namespace hydroprint::pipeline {
 
@@ -27,11 +28,15 @@ struct SimulateOptions {
   int ink_passes = 1;
   bool images = true;        ///< false: computes only the film's landing, without images
   bool needs_colour = true;  ///< false: a model without colours is accepted, and its film blank
+  /// One dip of a plan: the film prints only what the plan gives it. nullopt: everything.
+  std::optional<PlanShare> share;
 };
 
 /// The image to print, and pictures for display.
 struct SimulatedImages {
-  image::RgbImage film;     ///< the image to print
+  image::RgbImage film;  ///< the image to print
+  /// Only for one dip of a plan; see DipImages.
+  std::optional<image::RgbImage> complete, mask;
   image::FilmMap film_map;  ///< landing points of the film
   image::RgbImage stretch;  ///< picture of the stretch on the object
   /// Picture of the film's compression; present only if the film wrinkles (film_wrinkled).
@@ -44,13 +49,15 @@ struct Simulation {
   Dip dip;
   std::optional<SimulatedImages> images;
   std::vector<image::PlacedLayer> layers;  ///< of the paint; empty without images
+  std::optional<PlanDeviation> deviation;  ///< only for one dip of a plan
   Warnings warnings;                       ///< warnings of all stages
 };
 
 /// Runs all steps of section 4: model, paint, dip, film image, pictures. Returns the errors of its
 /// stages. If no picture is given, also returns kNotFound for a model whose material file or
 /// material is missing, because its colours would silently be white. Returns the errors of
-/// read_paint() unless `needs_colour` or `images` is false.
+/// read_paint() unless `needs_colour` or `images` is false, and for one dip of a plan those of
+/// divide_as_planned().
 [[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

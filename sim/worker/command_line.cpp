@@ -183,9 +183,10 @@ Error VerbParser::located(Error error) const {
   return error;
 }
 
-/// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a spec.
+/// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a file.
 CommandLine VerbParser::refuse_options(const Error& error) const {
-  const bool is_usage = !run_.spec && error.code != Code::kOutOfRange;
+  const bool is_usage =
+      !run_.spec && error.code != Code::kOutOfRange && error.metadata.contains("field");
   return refuse(run_.options, is_usage ? ExitStatus::kUsage : ExitStatus::kBadInput,
                 located(error));
 }

@@ -61,7 +61,8 @@ void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
   stages.insert(stages.end(), more.begin(), more.end());
 }
 
-std::vector<Stage> stages(const FlowOptions& options, bool is_simulation) {
+/// @param is_planned  one dip of a plan
+std::vector<Stage> stages(const FlowOptions& options, bool is_simulation, bool is_planned) {
   const int passes = options.is_sheet() ? options.passes() : 0;
   const Stage ink{"ink", 0.5};
   const Stage sheet{"sheet", options.inertia ? 90.0 : 30.0};
@@ -70,7 +71,10 @@ std::vector<Stage> stages(const FlowOptions& options, bool is_simulation) {
   if (!options.ink_image.empty()) out.push_back(ink);
   out.push_back({"reading", 4});
   if (!is_simulation && passes > 0) out.push_back(ink);
-  append(out, {{"surface", 1}, {"waterline", 1}, {"velocity", 9}});
+  out.push_back({"surface", 1});
+  if (is_planned) append(out, {{"regions", 0.5}, {"blend", 1}});
+  append(out, {{"waterline", 1}, {"velocity", 9}});
+  if (is_planned) append(out, {{"flow map", 10}, {"regions", 0.5}});
   if (is_simulation && passes > 0) {
     for (int pass = 0; pass < passes; ++pass) {
       append(out, {{"flow map", 10}, {"film image", 1}, ink, sheet});
@@ -120,9 +124,13 @@ Status add_material_textures(const mesh::Model& model, Report& report) {
   return {};
 }
 
-std::vector<Stage> simulate_stages(const FlowOptions& options) { return stages(options, true); }
+std::vector<Stage> simulate_stages(const FlowOptions& options, bool is_planned) {
+  return stages(options, true, is_planned);
+}
 
-std::vector<Stage> predict_stages(const FlowOptions& options) { return stages(options, false); }
+std::vector<Stage> predict_stages(const FlowOptions& options) {
+  return stages(options, false, false);
+}
 
 std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips) {
   const std::vector<Stage> flow = {{"waterline", 1}, {"velocity", 9}, {"flow map", 10}};

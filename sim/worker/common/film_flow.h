@@ -62,7 +62,9 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
 
 /// Stages of a run. The weights are rough percentages of the time, measured with dips of a globe
 /// and of a cow with the default options. With inertia the sheet takes three times as long.
-[[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options);
+/// @param is_planned  one dip of a plan
+[[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options,
+                                                 bool is_planned = false);
 [[nodiscard]] std::vector<Stage> predict_stages(const FlowOptions& options);
 [[nodiscard]] std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips);
 

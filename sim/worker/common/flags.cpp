@@ -103,6 +103,18 @@ void Flags::require_folders(const std::string& name, const std::string& file) {
       ->type_name("DIR");
 }
 
+void Flags::add_folder(const std::string& name, const std::vector<std::string>& files) {
+  const FieldDescriptor& to = field(name);
+  const auto add = [this, &to, files](const std::string& folder) {
+    for (const std::string& file : files) {
+      auto* const added = spec_.GetReflection()->AddMessage(&spec_, &to);
+      static_cast<v1::InputFile*>(added)->set_name(folder + "/" + file);
+    }
+  };
+  app_.add_option_function<std::string>(flags::flag_of(to), add, rules::flag_help(to))
+      ->type_name("DIR");
+}
+
 Status Flags::read_files() {
   if (paint_ != nullptr) {
     HP_ASSIGN_OR_RETURN(const v1::Paint paint, paint::read_paint_file(paint_file_));

@@ -31,6 +31,9 @@ class Flags {
   /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
   void require_folders(const std::string& field, const std::string& file);
 
+  /// Adds a flag for a folder. The spec gets the paths of these files in it.
+  void add_folder(const std::string& field, const std::vector<std::string>& files);
+
   /// Reads the pose from the file of `--pose`, the dips from that of `--immersions` and the paint
   /// from that of `--paint`, if the flag was given. Called after parsing. Returns the errors of
   /// read_pose_file(), read_immersions_file() and read_paint_file().

@@ -30,6 +30,19 @@ namespace hydroprint::worker {
 /// the errors of image::write_artifact().
 [[nodiscard]] Status write_plan(const std::filesystem::path& path, const pipeline::Plan& plan);
 
+/// The surface of a plan, and the stretch by which it was divided.
+struct PlanSurface {
+  std::vector<Eigen::Vector3d> points;  ///< O, mm
+  std::vector<Eigen::Vector3i> triangles;
+  std::vector<std::vector<double>> stretch;  ///< per dip and point; NaN where no film arrives
+};
+
+/// Reads a file of write_plan(). Takes memory only for what the file holds. Returns the errors of
+/// open_input_file(), and kInvalidArgument, naming the file and the remedy, for any other file and
+/// for a plan with another number of dips.
+[[nodiscard]] Result<PlanSurface> read_plan_surface(const std::filesystem::path& path,
+                                                    std::size_t dips);
+
 /// Writes a scan's surface: x, y, z (mm) for each point, then the triangles. Returns the errors of
 /// image::write_artifact().
 [[nodiscard]] Status write_scan(const std::filesystem::path& path, const scan::TriangleMesh& mesh);

@@ -191,7 +191,7 @@ Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Pla
     };
     HP_ASSIGN_OR_RETURN(const auto names,
                         write_files(folder,
-                                    {file("stretch", images.stretch, image::kScreenDpi),
+                                    {file("stretch", print.stretch, image::kScreenDpi),
                                      file("complete", images.complete, options.dpi),
                                      file("mask", images.mask, options.dpi),
                                      file("film", images.film, options.dpi)},
@@ -200,6 +200,7 @@ Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Pla
     report.warnings.insert(report.warnings.end(), print.warnings.begin(), print.warnings.end());
     image::add_ink(print.ink, ink);
     print.images = {};
+    print.stretch = {};
     print.ink = {};
     out.push_back(std::move(print));
   }

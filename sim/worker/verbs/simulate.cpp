@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,6 +15,8 @@
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/film_flow.h"
 #include "sim/worker/common/paint.h"
+#include "sim/worker/common/plan_file.h"
+#include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -21,6 +25,7 @@ constexpr const char* kExamples = R"(Examples:
   hydroprint-worker simulate --mesh spot.obj --texture spot.png --scale 50 --out spot-film
   hydroprint-worker simulate --mesh cat.stl --texture fur.png --project box --project-size-mm 60 --out cat-film
   hydroprint-worker simulate --mesh mug.obj --scale 10 --pose pose.json --film A3 --dpi 600 --out mug
+  hydroprint-worker simulate --mesh spot.obj --texture spot.png --plan plan --immersion 2 --pose hung.json --out second
   hydroprint-worker simulate --mesh ball.ply --film circle:105 --depth-mm 40 --artifacts map --out map
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
@@ -28,13 +33,32 @@ Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 can
 struct SimulateOptions {
   FlowOptions flow;
   PaintOptions paint;
+  PlannedDipOptions plan;
 };
 
-Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFolder& inputs) {
+void add_flags(Flags& flags) {
+  flags.add_fields();
+  add_plan_flag(flags);
+}
+
+Result<SimulateOptions> read_options(v1::SimulateSpec spec, const InputFolder& inputs) {
   SimulateOptions out;
+  HP_ASSIGN_OR_RETURN(out.plan, take_plan(inputs, spec));
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
   HP_ASSIGN_OR_RETURN(out.paint, paint_options(spec, inputs));
   return out;
+}
+
+/// Describes the dip of a plan for report.json.
+Json plan_json(const pipeline::PlanDeviation& deviation, const pipeline::PlanShare& share) {
+  const auto k = static_cast<std::size_t>(share.dip - 1);
+  return {{"immersion", share.dip},
+          {"immersions", share.X_FO.size()},
+          {"planned_pose", pose_json(share.X_FO[k])},
+          {"turn_deg", deviation.turn_rad * 180 / std::numbers::pi},
+          {"shift_mm", pair_of(deviation.shift_mm)},
+          {"lost_share", deviation.lost_share},
+          {"seam_shift_mm", deviation.seam_shift_mm}};
 }
 
 class Simulate final : public ArtifactTask {
@@ -47,7 +71,7 @@ class Simulate final : public ArtifactTask {
   }
   [[nodiscard]] std::string memory_tip() const override { return "a smaller model, a lower --dpi"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
-    return simulate_stages(options_.flow);
+    return simulate_stages(options_.flow, has_plan());
   }
 
  protected:
@@ -55,7 +79,9 @@ class Simulate final : public ArtifactTask {
     const ObjectOptions& object = options_.flow.dip.object;
     std::vector<InputPath> out = {{"mesh", object.mesh}};
     out.insert(out.end(), options_.paint.files.begin(), options_.paint.files.end());
-    out.insert(out.end(), {{"pose", object.pose_file},
+    out.insert(out.end(), {{"plan", options_.plan.plan_json},
+                           {"plan", options_.plan.plan_ply},
+                           {"pose", object.pose_file},
                            {"profile", options_.flow.dip.profile},
                            {"ink_image", options_.flow.ink_image},
                            film_file(object.film)});
@@ -67,6 +93,7 @@ class Simulate final : public ArtifactTask {
   [[nodiscard]] Json findings(const Report& report) const override {
     Json out = dip_.report(options_.flow, film_image_px_, report.threads);
     out["layers"] = layers_json(layers_);
+    if (deviation_) out["plan"] = plan_json(*deviation_, options_.plan.share);
     return out;
   }
   [[nodiscard]] Json figures() const override { return dip_.figures(); }
@@ -76,6 +103,8 @@ class Simulate final : public ArtifactTask {
   }
 
  private:
+  [[nodiscard]] bool has_plan() const { return !options_.plan.plan_json.empty(); }
+  [[nodiscard]] Status check_mesh(const Report& report) const;
   [[nodiscard]] pipeline::SimulateOptions pipeline_options(pipeline::DipOptions dip) const;
   [[nodiscard]] std::vector<FileTask> files(const pipeline::Simulation& simulation,
                                             const Context& context) const;
@@ -83,6 +112,7 @@ class Simulate final : public ArtifactTask {
   SimulateOptions options_;
   DipFindings dip_;
   std::vector<image::PlacedLayer> layers_;
+  std::optional<pipeline::PlanDeviation> deviation_;
   std::array<int, 2> film_image_px_ = {0, 0};
 };
 
@@ -100,12 +130,25 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
   return out;
 }
 
+/// The hash of the mesh file must be that of the plan's.
+Status Simulate::check_mesh(const Report& report) const {
+  if (!has_plan() || report.inputs.front().digest.sha256 == options_.plan.mesh_sha256) return {};
+  return fail(
+      Code::kInvalidArgument,
+      fmt::format("{}: not the mesh of the plan {}. Use the same file, or make another plan",
+                  subject(), options_.plan.plan_json.string()));
+}
+
 std::vector<FileTask> Simulate::files(const pipeline::Simulation& simulation,
                                       const Context& context) const {
   std::vector<FileTask> out = {surface_map_file(simulation.dip)};
   if (!simulation.images) return out;
   const pipeline::SimulatedImages& images = *simulation.images;
   out.push_back(png_file("film.png", images.film, options_.flow.dpi, context));
+  if (images.complete) {
+    out.push_back(png_file("complete.png", *images.complete, options_.flow.dpi, context));
+    out.push_back(png_file("mask.png", *images.mask, options_.flow.dpi, context));
+  }
   out.emplace_back("film_map.exr", [&images](const std::filesystem::path& path) {
     return image::write_film_map_exr(path, images.film_map);
   });
@@ -123,13 +166,18 @@ Status Simulate::compute(OutFolder& folder, Report& report, const Context& conte
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, options_.flow.dpi));
   }
   HP_RETURN_IF_ERROR(check_cancelled(context));
-  const pipeline::SimulateOptions options = pipeline_options(std::move(dip));
+  HP_RETURN_IF_ERROR(check_mesh(report));
+  pipeline::SimulateOptions options = pipeline_options(std::move(dip));
+  if (has_plan()) {
+    HP_ASSIGN_OR_RETURN(options.share, read_share(options_.plan));
+  }
   HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
   dip_ = {options.dip, simulation.model, simulation.dip};
   report.warnings = simulation.warnings;
   const Warnings& pose = options_.flow.dip.object.pose_warnings;
   report.warnings.insert(report.warnings.begin(), pose.begin(), pose.end());
   layers_ = simulation.layers;
+  deviation_ = simulation.deviation;
   if (!options_.flow.map_only && options_.paint.shows_own_colours())
     HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
   if (simulation.images) {
@@ -151,9 +199,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb simulate_verb() {
-  return {"simulate",      "Compute the film image to print from a textured model",
-          kExamples,       &v1::SimulateSpec::default_instance(),
-          add_field_flags, plan};
+  return {"simulate", "Compute the film image to print from a textured model",
+          kExamples,  &v1::SimulateSpec::default_instance(),
+          add_flags,  plan};
 }
 
 }  // namespace hydroprint::worker

@@ -105,6 +105,16 @@ TEST_F(Stages, OfAPlanComeAsListed) {
   }
 }
 
+TEST_F(Stages, OfADipOfAPlanComeAsListed) {
+  (void)planned({});
+  std::filesystem::rename(out(), path("plan"));
+  const Arguments stokes = simulate({"--texture", path("texture.png"), "--plan", path("plan"),
+                                     "--immersion", "2", "--film", "60x70"});
+  Arguments sheet = stokes;
+  sheet.insert(sheet.end(), {"--model", "sheet", "--ink-passes", "1"});
+  for (const Arguments& command : {stokes, sheet}) EXPECT_EQ(reported(command), listed(command));
+}
+
 TEST_F(Stages, UnusedStagesAreLeftOut) {
   // A model without colours has no ink, and so needs no stages for it.
   folder.write("bare.obj", sphere_obj(12, 12));
