@@ -4,6 +4,7 @@
 #include "daemon/api/services.h"
 #include "daemon/auth/visibility.h"
 #include "daemon/jobs/job_request.h"
+#include "daemon/jobs/plan_facts.h"
 #include "daemon/jobs/registry.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
@@ -62,6 +63,15 @@ class JobService final : public v1::JobService::Service {
   grpc::Status PinJob(grpc::ServerContext* context, const v1::PinJobRequest* request,
                       v1::Job* reply) override {
     return answer(*context, pin(*context, *request), reply);
+  }
+
+  grpc::Status GetPlanProgress(grpc::ServerContext* context,
+                               const v1::GetPlanProgressRequest* request,
+                               v1::PlanProgress* reply) override {
+    auto progress = plan_progress(*context, request->name());
+    if (!progress) return to_grpc(progress.error());
+    *reply = std::move(*progress);
+    return grpc::Status::OK;
   }
 
   grpc::Status RetryJob(grpc::ServerContext* context, const v1::RetryJobRequest* request,
@@ -138,6 +148,15 @@ class JobService final : public v1::JobService::Service {
     checked.lease_id = request.lease_id();
     JobExecutor& executor = backend_.executors[kind->executor()];
     return request.validate_only() ? executor.check(checked) : store(executor, checked);
+  }
+
+  Result<v1::PlanProgress> plan_progress(const grpc::ServerContext& context,
+                                         const std::string& name) const {
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
+    HP_ASSIGN_OR_RETURN(const Job plan, get(name));
+    HP_RETURN_IF_ERROR(check_may_see(caller, plan));
+    HP_ASSIGN_OR_RETURN(const PlanFacts facts, plan_facts(name, caller.name, sources()));
+    return progress_of(facts);
   }
 
   [[nodiscard]] JobSources sources() const {

@@ -45,6 +45,9 @@ class ReportReader {
     if (!report_.contains(place) || !report_.at(place).is_string()) return false;
     return report_.at(place).get<std::string>().starts_with("circle:");
   }
+  [[nodiscard]] bool has(const std::string& pointer) const {
+    return report_.contains(Json::json_pointer(pointer));
+  }
   [[nodiscard]] const Status& status() const { return status_; }
 
  private:
@@ -77,6 +80,9 @@ void fill_from(const SimulatedDip& simulated, dip::Plan& plan) {
   plan.activator_ml_per_m2 = simulated.activator_ml_per_m2;
   plan.clocks.soak_s = simulated.soak_s;
   plan.clocks.activator_wait_s = simulated.activator_wait_s;
+  plan.immersion = simulated.immersion;
+  plan.immersions = simulated.immersions;
+  plan.warnings = simulated.warnings;
 }
 
 void fill_from(const v1::DipSpec& spec, dip::Plan& plan) {
@@ -119,6 +125,11 @@ Result<SimulatedDip> read_simulated_dip(const std::string& report) {
   out.activator_ml_per_m2 = reader.number(profile + "activator_ml_per_m2", 0, 1000);
   out.soak_s = reader.number(profile + "soak_s", 0, 3600);
   out.activator_wait_s = reader.number(profile + "activator_wait_s", 0, 3600);
+  if (reader.has("/plan")) {
+    out.immersion = static_cast<int>(reader.number("/plan/immersion", 1, 12));
+    out.immersions = static_cast<int>(reader.number("/plan/immersions", 1, 12));
+    out.warnings = report_warnings(report, kPlanWarnings);
+  }
   HP_RETURN_IF_ERROR(reader.status());
   return out;
 }
@@ -150,6 +161,7 @@ Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationSto
     HP_ASSIGN_OR_RETURN(auto simulation,
                         earlier_simulation(spec.simulate_job(), "dip.simulate_job", jobs));
     simulated = std::move(simulation.spec);
+    plan.plan_job = simulated.plan_job();
     doubt(simulated.pose(), spec.simulate_job(), plan);
   }
   if (spec.calibration().empty()) return {};

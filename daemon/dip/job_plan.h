@@ -19,6 +19,9 @@ struct SimulatedDip {
   double activator_ml_per_m2 = 0;
   double soak_s = 0;
   double activator_wait_s = 0;
+  int immersion = 0;   ///< which dip of a plan, from 1; 0: none
+  int immersions = 0;  ///< number of dips of that plan
+  Warnings warnings;   ///< about differences from that plan
 };
 
 /// Reads the parameters from an untrusted report.

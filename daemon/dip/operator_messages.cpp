@@ -5,15 +5,23 @@
 namespace hydroprint::dip {
 namespace {
 
+/// Returns "dip 2 of 3: ", or nothing for a dip without a plan.
+std::string which(const Plan& plan) {
+  if (plan.immersion == 0) return "";
+  return fmt::format("dip {} of {}: ", plan.immersion, plan.immersions);
+}
+
 std::string print_film(const Plan& plan) {
   const std::string image =
       plan.simulate_job.empty() ? "the film image" : "the film image of " + plan.simulate_job;
-  if (!plan.has_uncertain_pose)
-    return fmt::format("print {} at its full size and let it dry; then confirm", image);
+  if (!plan.has_uncertain_pose) {
+    return fmt::format("{}print {} at its full size and let it dry; then confirm", which(plan),
+                       image);
+  }
   return fmt::format(
-      "the object's pose is uncertain (see the warnings): abort and calibrate again, or accept a "
+      "{}the object's pose is uncertain (see the warnings): abort and calibrate again, or accept a "
       "misplaced print: print {} at its full size and let it dry; then confirm",
-      image);
+      which(plan), image);
 }
 
 std::string find_contact(const Plan& plan) {
@@ -34,7 +42,7 @@ std::string instruction(Step step, const Plan& plan) {
     case Step::kPrintFilm:
       return print_film(plan);
     case Step::kLoadObject:
-      return "mount the object in the gripper as planned; then confirm";
+      return which(plan) + "mount the object in the gripper as planned; then confirm";
     case Step::kFindContact:
       return find_contact(plan);
     case Step::kClear:
@@ -73,8 +81,13 @@ std::string instruction(Step step, const Plan& plan) {
   return "";
 }
 
-std::string afterwards() {
-  return "take the object out, rinse off the rest of the film, and let it dry";
+std::string afterwards(const Plan& plan) {
+  if (plan.immersion == 0)
+    return "take the object out, rinse off the rest of the film, and let it dry";
+  return fmt::format(
+      "dip {} of {} is done: skim the rest of the film off the water, take the object out, rinse "
+      "it and let it dry; then continue with the plan{}",
+      plan.immersion, plan.immersions, plan.plan_job.empty() ? "" : " " + plan.plan_job);
 }
 
 std::string advice(Step step) {

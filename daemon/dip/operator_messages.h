@@ -10,7 +10,7 @@ namespace hydroprint::dip {
 [[nodiscard]] std::string instruction(Step step, const Plan& plan);
 
 /// Returns the instruction for handling the object after a successful dip.
-[[nodiscard]] std::string afterwards();
+[[nodiscard]] std::string afterwards(const Plan& plan);
 
 /// Returns the instruction for handling film and object when a dip ends early in this step.
 [[nodiscard]] std::string advice(Step step);

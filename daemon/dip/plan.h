@@ -28,6 +28,9 @@ struct Plan {
   /// Position of first contact from the calibration; nullopt: the operator finds it.
   std::optional<double> contact_mm;
   std::int64_t homings = 0;  ///< the rig's number of homings (RigPlace) at the calibration
+  int immersion = 0;         ///< which dip of a plan of several dips, from 1; 0: none
+  int immersions = 0;        ///< number of dips of that plan
+  std::string plan_job;      ///< "jobs/2"; empty: not known
   Warnings warnings;         ///< reasons to expect a poor print
   /// The pose of film or object is uncertain (pose_warnings()): the first step asks whether to go
   /// on.

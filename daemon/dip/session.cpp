@@ -60,17 +60,22 @@ void log_failure(const char* event, std::int64_t job, const Status& status) {
   if (!status) log(LogLevel::kError, event, {{"job", job}, {"message", status.error().message}});
 }
 
-v1::DipStatus status_of(Step step, const std::string& instruction) {
+v1::DipStatus status_of(Step step, const std::string& instruction, const dip::Plan& plan) {
   v1::DipStatus out;
   out.set_step(static_cast<v1::DipStatus::Step>(step));
   out.set_instruction(instruction);
+  out.set_immersion(plan.immersion);
+  out.set_immersions(plan.immersions);
+  if (plan.plan_job.empty()) return out;
+  out.set_plan_job(plan.plan_job);
+  out.set_picture(fmt::format("{}/artifacts/stretch-{}.png", plan.plan_job, plan.immersion));
   return out;
 }
 
 }  // namespace
 
 std::string first_dip_status(const dip::Plan& plan) {
-  v1::DipStatus out = status_of(Step::kPrintFilm, dip::instruction(Step::kPrintFilm, plan));
+  v1::DipStatus out = status_of(Step::kPrintFilm, dip::instruction(Step::kPrintFilm, plan), plan);
   for (const Warning& warning : plan.warnings) out.add_warnings(warning.message);
   return out.SerializeAsString();
 }
@@ -329,12 +334,13 @@ void DipSession::report_progress() {
 
 std::string DipSession::words() const {
   if (stand_.ending == Ending::kNone) return dip::instruction(stand_.step, facts_.plan);
-  return stand_.ending == Ending::kSucceeded ? dip::afterwards() : dip::advice(stand_.step);
+  return stand_.ending == Ending::kSucceeded ? dip::afterwards(facts_.plan)
+                                             : dip::advice(stand_.step);
 }
 
 std::string DipSession::status() const {
   const bool ended = stand_.ending != Ending::kNone;
-  v1::DipStatus out = status_of(stand_.step, words());
+  v1::DipStatus out = status_of(stand_.step, words(), facts_.plan);
   const auto& planned_s = facts_.steps.back().planned_s;
   if (planned_s && !ended) {
     *out.mutable_step_end_time() = time_of(wall_ms(stand_.since_s + *planned_s));
@@ -377,7 +383,7 @@ std::string DipSession::end_words() const {
   const std::string where = fmt::format("{}: {}", name(stand_.step), dip::advice(stand_.step));
   switch (stand_.ending) {
     case Ending::kSucceeded:
-      return dip::afterwards();
+      return dip::afterwards(facts_.plan);
     case Ending::kCancelled:
       return failure + "ended on request during " + where;
     case Ending::kInterrupted:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/job.pb.h"
 #include "sim/base/input_file.h"
@@ -10,6 +12,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::size_t kLargestReport = 4 << 20;
+constexpr std::size_t kMostWarnings = 10;
 
 }  // namespace
 
@@ -41,11 +44,38 @@ Result<EarlierSimulation> earlier_simulation(const std::string& name, const std:
   return out;
 }
 
+Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& field,
+                                  JobStore& jobs) {
+  HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "plan", field, jobs));
+  v1::Job body;
+  if (!body.ParseFromString(job.definition.body) || !body.has_plan()) {
+    return fail(Code::kInternal, name + ": its spec cannot be read", "STORE_FAILED");
+  }
+  return body.plan();
+}
+
 Result<std::string> report_of(const Job& job, const Layout& layout) {
   auto report = read_text_file(layout.artifacts(job.id) / "report.json", kLargestReport);
   if (report) return report;
   return fail(Code::kFailedPrecondition,
               job_name(job.id) + " has no usable report.json; retry that job", "STATE_FORBIDS");
+}
+
+Warnings report_warnings(const std::string& report, std::string_view prefix) {
+  using Json = nlohmann::json;
+  const Json json = Json::parse(report, nullptr, false);
+  Warnings out;
+  if (!json.is_object() || !json.contains("warnings")) return out;
+  const auto text = [](const Json& warning, const char* key) {
+    const bool is_text = warning.contains(key) && warning[key].is_string();
+    return is_text ? warning[key].get<std::string>() : std::string();
+  };
+  for (const Json& warning : json["warnings"]) {
+    if (!warning.is_object() || out.size() == kMostWarnings) continue;
+    if (!text(warning, "code").starts_with(prefix)) continue;
+    out.push_back({text(warning, "code"), text(warning, "message"), text(warning, "where")});
+  }
+  return out;
 }
 
 }  // namespace hydroprint::daemon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
@@ -28,8 +29,18 @@ struct EarlierSimulation {
                                                            const std::string& field,
                                                            JobStore& jobs);
 
+/// Returns the spec of a plan job that SUCCEEDED. Errors: those of earlier_simulation().
+[[nodiscard]] Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& field,
+                                                JobStore& jobs);
+
 /// Reads report.json of a job.
 /// @return kFailedPrecondition, STATE_FORBIDS if the file is missing, unreadable or too large
 [[nodiscard]] Result<std::string> report_of(const Job& job, const Layout& layout);
+
+/// The codes of warnings about a dip that differs from its plan begin with this.
+inline constexpr std::string_view kPlanWarnings = "plan_";
+
+/// Returns the warnings of an untrusted report.json whose codes begin with a prefix, at most ten.
+[[nodiscard]] Warnings report_warnings(const std::string& report, std::string_view prefix);
 
 }  // namespace hydroprint::daemon

@@ -1,19 +1,30 @@
 // Computes the film image from a textured model.
+#include <fmt/format.h>
+
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/kind.h"
+#include "daemon/jobs/plan_binding.h"
 #include "daemon/jobs/spec_fields.h"
 #include "daemon/platform/resource_names.h"
 
 namespace hydroprint::daemon {
 namespace {
 
+constexpr const char* kDefaultFilm = "A4";
+
 class SimulateKind final : public KindOf<v1::SimulateSpec> {
  private:
-  /// If a calibration is named, pose, scale and film are taken from it.
+  /// If a plan is named, object, picture, scale and film are taken from it; if a calibration is
+  /// named, pose, scale and film.
   [[nodiscard]] Status resolve_spec(v1::SimulateSpec& shown, v1::SimulateSpec& resolved,
                                     const JobSources& sources) const override {
+    const bool has_plan = !shown.plan_job().empty();
+    if (has_plan && !shown.plan().empty())
+      return invalid_field("simulate.plan", "is set together with plan_job; set one of them");
+    if (has_plan) HP_RETURN_IF_ERROR(take_plan(shown, sources));
     if (!shown.calibration().empty()) HP_RETURN_IF_ERROR(take_calibration(shown, sources));
     resolved = shown;
+    if (has_plan) HP_RETURN_IF_ERROR(adopt_plan(resolved, sources));
     resolved.clear_calibration();
     resolved.clear_allow_stale_calibration();
     return {};
@@ -32,11 +43,31 @@ class SimulateKind final : public KindOf<v1::SimulateSpec> {
     const v1::Calibration calibration = to_message(found, sources.place);
     HP_RETURN_IF_ERROR(check_objection(calibration, objection(calibration, spec.mesh()),
                                        spec.allow_stale_calibration()));
+    if (!spec.plan_job().empty()) HP_RETURN_IF_ERROR(check_planned(calibration, spec));
     spec.set_calibration(calibration_name(found.id));
     *spec.mutable_pose() = stated_pose(calibration);
     spec.set_scale(calibration.scale());
     if (!calibration.film().empty()) spec.set_film(calibration.film());
     if (calibration.has_film_file()) add_polygon(calibration.film_file(), spec);
+    return {};
+  }
+
+  /// The calibration must be for the plan's film and scale.
+  [[nodiscard]] static Status check_planned(const v1::Calibration& calibration,
+                                            const v1::SimulateSpec& spec) {
+    const double scale = spec.has_scale() ? spec.scale() : 1;
+    const std::string film = spec.has_film() ? spec.film() : kDefaultFilm;
+    const auto refuse = [&](const std::string& own, const std::string& planned) {
+      return invalid_field("simulate.calibration",
+                           fmt::format("{} is for {}, but {} for {}; calibrate with the plan's "
+                                       "scale and film",
+                                       calibration.name(), own, spec.plan_job(), planned));
+    };
+    if (calibration.scale() != scale) {
+      return refuse(fmt::format("scale {:g}", calibration.scale()), fmt::format("{:g}", scale));
+    }
+    if (!calibration.film().empty() && calibration.film() != film)
+      return refuse("film " + calibration.film(), film);
     return {};
   }
 

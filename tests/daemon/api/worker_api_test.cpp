@@ -4,12 +4,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <sstream>
 #include <thread>
 
 #include "daemon/workers/landlock.h"
+#include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "tests/daemon/api/support.h"
 
 namespace hydroprint::tests {
@@ -280,29 +282,157 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
   EXPECT_TRUE(again.cache_hit());
 }
 
-TEST_F(RealWorker, ComputesAPlanOfTwoDips) {
-  v1::CreateJobRequest request;
-  v1::PlanSpec& spec = *request.mutable_job()->mutable_plan();
-  v1::InputFile& mesh = *spec.mutable_object()->mutable_mesh();
-  mesh.set_name("ball.ply");
-  mesh.set_asset(client->upload(coloured_tetrahedron_ply()));
-  spec.mutable_film()->set_film("60x60");
-  spec.mutable_film()->set_model(v1::MODEL_STOKES);
-  spec.set_dpi(72);
-  for (int k = 0; k < 2; ++k) {
-    v1::Pose& pose = *spec.add_immersions()->mutable_pose();
-    for (int i = 0; i < 4; ++i) pose.add_rotation_wxyz(i == k ? 1 : 0);
-    for (int i = 0; i < 3; ++i) pose.add_translation_mm(0);
+class RealPlan : public RealWorker {
+ protected:
+  /// Computes a plan of two opposite dips.
+  v1::Job make_plan() {
+    v1::CreateJobRequest request;
+    v1::PlanSpec& spec = *request.mutable_job()->mutable_plan();
+    v1::InputFile& mesh = *spec.mutable_object()->mutable_mesh();
+    mesh.set_name("ball.ply");
+    mesh.set_asset(client->upload(coloured_tetrahedron_ply()));
+    spec.mutable_film()->set_film("60x60");
+    spec.mutable_film()->set_model(v1::MODEL_STOKES);
+    spec.set_dpi(72);
+    for (int k = 0; k < 2; ++k) {
+      v1::Pose& pose = *spec.add_immersions()->mutable_pose();
+      for (int i = 0; i < 4; ++i) pose.add_rotation_wxyz(i == k ? 1 : 0);
+      for (int i = 0; i < 3; ++i) pose.add_translation_mm(0);
+    }
+    return done(request);
   }
-  v1::Job job;
-  ASSERT_TRUE(client->create(request, job).ok());
-  job = patient_end(job);
-  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  v1::Job done(const v1::CreateJobRequest& request) {
+    v1::Job job;
+    const grpc::Status created = client->create(request, job);
+    EXPECT_TRUE(created.ok()) << created.error_message();
+    job = patient_end(job);
+    EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+    return job;
+  }
+  static v1::CreateJobRequest dip_of(const std::string& plan, int immersion) {
+    v1::CreateJobRequest request;
+    request.mutable_job()->mutable_simulate()->set_plan_job(plan);
+    request.mutable_job()->mutable_simulate()->set_immersion(immersion);
+    return request;
+  }
+  /// The message of the refusal of a dip; the reason is in front.
+  std::string refusal(const v1::CreateJobRequest& request) {
+    v1::Job job;
+    const grpc::Status status = client->create(request, job);
+    EXPECT_FALSE(status.ok());
+    return error_info(status).reason() + ": " + status.error_message();
+  }
+  v1::Calibration enter_calibration(const std::array<double, 4>& rotation_wxyz, double scale) {
+    v1::CreateCalibrationRequest request;
+    v1::Calibration& calibration = *request.mutable_calibration();
+    calibration.mutable_mesh()->set_name("ball.ply");
+    calibration.mutable_mesh()->set_asset(client->upload(coloured_tetrahedron_ply()));
+    calibration.set_scale(scale);
+    calibration.set_film("60x60");
+    calibration.mutable_pose()->mutable_rotation_wxyz()->Assign(rotation_wxyz.begin(),
+                                                                rotation_wxyz.end());
+    for (int i = 0; i < 3; ++i) calibration.mutable_pose()->add_translation_mm(0);
+    v1::Calibration out;
+    const auto stub = v1::CalibrationService::NewStub(client->channel);
+    throw_unless_ok(stub->CreateCalibration(client->context().get(), request, &out),
+                    "CreateCalibration");
+    return out;
+  }
+  v1::PlanProgress progress(const std::string& plan) {
+    v1::GetPlanProgressRequest request;
+    request.set_name(plan);
+    v1::PlanProgress out;
+    throw_unless_ok(client->jobs->GetPlanProgress(client->context().get(), request, &out),
+                    "GetPlanProgress");
+    return out;
+  }
+};
+
+TEST_F(RealPlan, ComputesAPlanAndEachOfItsDips) {
+  const v1::Job plan = make_plan();
   for (const char* name :
        {"plan.json", "plan.ply", "report.json", "stretch-1.png", "complete-1.png", "mask-1.png",
         "film-1.png", "film-2.png", "combined.png"}) {
-    EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
+    EXPECT_FALSE(client->download(plan.name() + "/artifacts/" + name).empty()) << name;
   }
+  EXPECT_EQ(progress(plan.name()).next_immersion(), 1);
+  EXPECT_EQ(progress(plan.name()).dips(1).step(), v1::PlanProgress::SIMULATE) << "without a camera";
+
+  const v1::Job dip = done(dip_of(plan.name(), 2));
+  EXPECT_EQ(dip.simulate().film(), "60x60");
+  EXPECT_EQ(dip.simulate().mesh().name(), "ball.ply");
+  EXPECT_EQ(client->download(dip.name() + "/artifacts/film.png"),
+            client->download(plan.name() + "/artifacts/film-2.png"))
+      << "at the planned pose";
+  EXPECT_EQ(progress(plan.name()).next_immersion(), 2);
+  EXPECT_EQ(progress(plan.name()).dips(1).step(), v1::PlanProgress::LAY_OUT);
+
+  // Its film image is printed as that of any other simulation, also after the plan was deleted.
+  v1::CreateJobRequest print;
+  print.mutable_job()->mutable_print_image()->set_simulate_job(dip.name());
+  (void)done(print);
+  EXPECT_EQ(progress(plan.name()).dips(1).step(), v1::PlanProgress::DIP);
+  v1::DeleteJobRequest remove;
+  remove.set_name(plan.name());
+  google::protobuf::Empty none;
+  throw_unless_ok(client->jobs->DeleteJob(client->context().get(), remove, &none), "DeleteJob");
+  v1::RetryJobRequest retry;
+  retry.set_name(dip.name());
+  v1::Job again;
+  throw_unless_ok(client->jobs->RetryJob(client->context().get(), retry, &again), "RetryJob");
+  EXPECT_EQ(patient_end(again).state(), v1::Job::SUCCEEDED);
+  EXPECT_EQ(refusal(dip_of(plan.name(), 1)).substr(0, 14), "JOB_NOT_FOUND:");
+}
+
+TEST_F(RealPlan, CalibratedDipIsComputedForTheMeasuredPose) {
+  const v1::Job plan = make_plan();
+  const double half = 8 * M_PI / 180 / 2;
+  const v1::Calibration turned = enter_calibration({0, std::cos(half), std::sin(half), 0}, 1);
+  EXPECT_EQ(progress(plan.name()).dips(0).calibration(), turned.name());
+  v1::CreateJobRequest request = dip_of(plan.name(), 2);
+  request.mutable_job()->mutable_simulate()->set_calibration("calibrations/active");
+  const v1::Job dip = done(request);
+  EXPECT_EQ(dip.simulate().calibration(), turned.name());
+  EXPECT_EQ(dip.simulate().pose().rotation_wxyz(1), turned.pose().rotation_wxyz(1));
+  const auto report =
+      nlohmann::json::parse(client->download(dip.name() + "/artifacts/report.json"));
+  EXPECT_NEAR(report["plan"]["turn_deg"].get<double>(), 8, 1e-6);
+  const v1::PlanProgress now = progress(plan.name());
+  EXPECT_EQ(now.next_immersion(), 2);
+  ASSERT_GT(now.dips(1).warnings_size(), 0) << "before anything is printed";
+  EXPECT_NE(now.dips(1).warnings(0).find("turned by 8.0 degrees"), std::string::npos);
+  EXPECT_EQ(now.dips(0).calibration(), "") << "the object hangs as for dip 2";
+
+  (void)enter_calibration({1, 0, 0, 0}, 2);
+  const std::string found = refusal(request);
+  EXPECT_NE(found.find("simulate.calibration: calibrations/2 is for scale 2, but jobs/1 for 1"),
+            std::string::npos)
+      << found;
+}
+
+TEST_F(RealPlan, DipsThatDoNotFitThePlanAreRefusedByName) {
+  const v1::Job plan = make_plan();
+  const auto has = [&](const v1::CreateJobRequest& request, const std::string& words) {
+    const std::string found = refusal(request);
+    EXPECT_NE(found.find(words), std::string::npos) << found;
+  };
+  has(dip_of(plan.name(), 3), "simulate.immersion: is 3, but jobs/1 has 2 dips");
+  has(dip_of(plan.name(), 0), "simulate.immersion");
+  v1::CreateJobRequest request = dip_of(plan.name(), 1);
+  request.mutable_job()->mutable_simulate()->clear_immersion();
+  has(request, "simulate.immersion: is missing");
+  request = dip_of(plan.name(), 1);
+  request.mutable_job()->mutable_simulate()->set_scale(2);
+  has(request, "scale");
+  request = dip_of(plan.name(), 1);
+  request.mutable_job()->mutable_simulate()->mutable_mesh()->set_name("other.ply");
+  request.mutable_job()->mutable_simulate()->mutable_mesh()->set_asset(client->upload(ball_obj()));
+  has(request, "simulate.mesh: is not the mesh of jobs/1 (ball.ply)");
+  request = dip_of(plan.name(), 1);
+  request.mutable_job()->mutable_simulate()->set_calibration("calibrations/9");
+  has(request, "CALIBRATION_MISSING: simulate.calibration");
+  const v1::Job simulation = run("v 0 0 nan\nf 1 1 1\n");
+  has(dip_of(simulation.name(), 1), "names a simulate job; name a plan job");
 }
 
 TEST_F(RealWorker, BadModelIsRefusedWithItsName) {

@@ -38,6 +38,26 @@ TEST(SimulatedDip, ValuesComeFromTheReport) {
   EXPECT_NEAR(read_simulated_dip(round.dump())->film_area_mm2, std::numbers::pi * 1e4, 1e-6);
 }
 
+TEST(SimulatedDip, DipOfAPlanHasItsNumberAndWarnings) {
+  json planned = report();
+  planned["plan"] = {{"immersion", 2}, {"immersions", 3}};
+  planned["warnings"] = {
+      {{"code", "plan_pose_off"}, {"message", "turned"}, {"where", "dip 2"}},
+      {{"code", "film_torn"}, {"message", "torn"}, {"where", "surface"}},
+      {{"code", 7}, {"message", "wrong"}},
+      "wrong",
+  };
+  const auto dip = read_simulated_dip(planned.dump());
+  ASSERT_TRUE(dip) << dip.error().message;
+  EXPECT_EQ(dip->immersion, 2);
+  EXPECT_EQ(dip->immersions, 3);
+  ASSERT_EQ(dip->warnings.size(), 1U);
+  EXPECT_EQ(dip->warnings[0].message, "turned");
+  EXPECT_EQ(read_simulated_dip(report().dump())->immersion, 0);
+  planned["plan"]["immersion"] = 99;
+  EXPECT_FALSE(read_simulated_dip(planned.dump()));
+}
+
 TEST(SimulatedDip, InvalidReportsAreRefused) {
   for (const char* text : {"", "{", "[]", "7", "{\"depth_mm\":\"full\"}"}) {
     EXPECT_FALSE(read_simulated_dip(text)) << text;

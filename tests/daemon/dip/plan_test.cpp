@@ -96,6 +96,20 @@ TEST(DipPlan, ActivatorIsProportionalToTheFilmArea) {
   EXPECT_NE(instruction(Step::kSprayActivator, plan).find("1.0 ml"), std::string::npos);
 }
 
+TEST(DipPlan, DipOfAPlanNamesItsNumberAndWhatComesNext) {
+  Plan plan;
+  EXPECT_EQ(instruction(Step::kPrintFilm, plan).find("dip "), std::string::npos);
+  EXPECT_EQ(afterwards(plan).find("continue"), std::string::npos);
+  plan.immersion = 2;
+  plan.immersions = 3;
+  plan.plan_job = "jobs/7";
+  for (const Step step : {Step::kPrintFilm, Step::kLoadObject})
+    EXPECT_TRUE(instruction(step, plan).starts_with("dip 2 of 3: ")) << instruction(step, plan);
+  EXPECT_EQ(afterwards(plan),
+            "dip 2 of 3 is done: skim the rest of the film off the water, take the object out, "
+            "rinse it and let it dry; then continue with the plan jobs/7");
+}
+
 TEST(DipPlan, EveryStepHasAnInstructionAndAdvice) {
   for (int i = 1; i <= kSteps; ++i) {
     EXPECT_FALSE(instruction(static_cast<Step>(i), Plan()).empty());

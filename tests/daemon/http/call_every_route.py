@@ -135,6 +135,15 @@ def create(api, spec, query=None):
     return last(api.call("CreateJob", spec, query=query).json["name"])
 
 
+def plan(api, asset):
+    pose = {"rotationWxyz": [1, 0, 0, 0], "translationMm": [0, 0, 0]}
+    number = create(api, {"plan": {"object": {"mesh": {"name": "tetrahedron.obj", "asset": asset}}, "dpi": 72,
+                                   "film": {"film": "circle:30"}, "immersions": [{"pose": pose, "depthMm": 3}]}})
+    api.call("WatchJob", job=number, until=10**6)
+    progress = api.call("GetPlanProgress", job=number).json
+    require(progress["nextImmersion"] == 1 and len(progress["dips"]) == 1, progress)
+
+
 def jobs(api, asset):
     """Calls the operations on jobs. Returns the number of a successful simulation."""
     mesh = {"mesh": {"name": "tetrahedron.obj", "asset": asset}, "film": "circle:30", "depthMm": 3, "dpi": 72}
@@ -157,6 +166,7 @@ def jobs(api, asset):
     again = last(api.call("RetryJob", job=second).json["name"])
     api.call("WatchJob", job=again, until=10**6)
     api.call("DeleteJob", job=second)
+    plan(api, asset)
     api.call("ComputePreview", {"simulate": mesh, "withMesh": True})
     return first
 

@@ -138,7 +138,7 @@ def wrong_rules(document):
         for keyword, value in keywords.items():
             if found.get(keyword) != value:
                 yield f"{name}.{field}: {keyword} is {found.get(keyword)}, not {value}"
-    for name, field in [("SimulateSpecInput", "mesh"), ("MoveToRequest", "positionMm"), ("AcquireLeaseRequest", "purpose")]:
+    for name, field in [("PredictSpecInput", "mesh"), ("MoveToRequest", "positionMm"), ("AcquireLeaseRequest", "purpose")]:
         if field not in schemas[name].get("required", []):
             yield f"{name} does not require {field}"
     if "default" in schemas["SimulateSpecInput"]["properties"]["depthMm"]:
