@@ -100,20 +100,28 @@ def of_sphere(plan: Mesh, sphere: closed_form.Sphere, width_mm: float, limits: L
     return out
 
 
-def of_sphere_film(image: np.ndarray, dpi: float, sphere: closed_form.Sphere, width_mm: float,
-                   limits: Limits) -> list[Claim]:
-    """The first film of a sphere in plain red: red times the weight, over white."""
-    rows, columns_px = image.shape[:2]
+LOWEST = np.array([0.0, 0.0, -1.0])
+
+
+def film_grid_mm(shape: tuple[int, ...], dpi: float) -> tuple[np.ndarray, np.ndarray]:
+    """x of the columns' and y of the rows' middles; the film's middle is the origin."""
+    rows, columns_px = shape[:2]
     pitch_mm = 25.4 / dpi
-    x_mm = (np.arange(columns_px) + 0.5 - columns_px / 2) * pitch_mm
-    y_mm = (rows / 2 - np.arange(rows) - 0.5) * pitch_mm
-    r_mm = np.hypot(x_mm[None, :], y_mm[:, None])
-    theta = sphere.theta_rad(r_mm)
-    ink = closed_form.weight(sphere.radius_mm * (theta - np.pi / 2), width_mm)
+    return (np.arange(columns_px) + 0.5 - columns_px / 2) * pitch_mm, (rows / 2 - np.arange(rows) - 0.5) * pitch_mm
+
+
+def of_sphere_film(image: np.ndarray, dpi: float, sphere: closed_form.Sphere, width_mm: float, limits: Limits,
+                   pole: np.ndarray = LOWEST) -> list[Claim]:
+    """A film of a sphere in plain red: red times the weight, over white. pole: see closed_form."""
+    rows, columns_px = image.shape[:2]
+    x_mm, y_mm = film_grid_mm(image.shape, dpi)
+    x_mm, y_mm = x_mm[None, :], y_mm[:, None]
+    ink = closed_form.weight(sphere.beyond_mm(x_mm, y_mm, pole), width_mm)
     expected = np.stack([np.full_like(ink, 255), 255 * (1 - ink), 255 * (1 - ink)], axis=2)
+    r_mm = np.hypot(x_mm, y_mm)
     inside = (r_mm > 1) & (r_mm < sphere.film_radius_mm(np.radians(110)))
     off = np.abs(image[:, :, :3].astype(float) - expected).max(axis=2)[inside]
-    size_px = round(2 * sphere.film_mm / pitch_mm)
+    size_px = round(2 * sphere.film_mm * dpi / 25.4)
     return [
         Claim("size of the film image off, pixels", float(max(abs(rows - size_px), abs(columns_px - size_px))), 0),
         Claim(f"share of pixels more than {limits.level} levels off", float((off > limits.level).mean()),

@@ -28,6 +28,14 @@ class Sphere:
         cosine = k * np.tan(np.arctan(1 / k) - passed)
         return np.arccos(np.clip(cosine, np.cos(np.radians(175)), 1))
 
+    def beyond_mm(self, x_mm: np.ndarray, y_mm: np.ndarray, pole: np.ndarray) -> np.ndarray:
+        """Signed distance on the sphere from the equator of a pole to the places where film points land, negative on the
+        side of the pole. pole: a unit vector in the film's frame; the lowest point is (0, 0, -1)."""
+        theta, azimuth = self.theta_rad(np.hypot(x_mm, y_mm)), np.arctan2(y_mm, x_mm)
+        across = pole[0] * np.cos(azimuth) + pole[1] * np.sin(azimuth)
+        height = np.sin(theta) * across - np.cos(theta) * pole[2]
+        return -self.radius_mm * np.arcsin(np.clip(height, -1, 1))
+
     def stretch(self, theta_rad: np.ndarray) -> np.ndarray:
         """Largest singular value of the map from film to sphere: along the meridian or around it."""
         theta = np.maximum(theta_rad, 1e-4)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 import pathlib
 import subprocess
@@ -16,11 +17,13 @@ import closed_form
 import ply
 import png
 import shapes
+import turned
 
 FILM_MM = 105.0
 WIDTH_MM = 5.0
 RED = (255, 0, 0)
 TURN_OVER = shapes.about(0, np.pi)
+TILTED = np.array([2.0, 1.0, 1.0])  # the line of the turn of `--turned`: neither vertical nor horizontal
 
 
 class WorkerFailed(Exception):
@@ -37,13 +40,30 @@ def run_plan(worker: pathlib.Path, folder: pathlib.Path, shape: shapes.Shape, ro
     command = [str(worker), "plan", "--mesh", str(folder / "shape.ply"), "--immersions", str(folder / "dips.json"),
                "--film", f"circle:{FILM_MM:g}", "--model", "stokes", "--ink-passes", "0", "--dpi", str(dpi),
                "--blend-mm", f"{WIDTH_MM:g}", "--out", str(folder / "plan"), *more]
+    run(command)
+    return folder / "plan"
+
+
+def run(command: list[str]) -> None:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise WorkerFailed(f"{worker}: {error.strerror}") from error
+        raise WorkerFailed(f"{command[0]}: {error.strerror}") from error
     if done.returncode != 0:
-        raise WorkerFailed(f"exit status {done.returncode}: {done.stderr.strip()}")
-    return folder / "plan"
+        raise WorkerFailed(f"{command[1]}: exit status {done.returncode}: {done.stderr.strip()}")
+
+
+def run_second_dip(worker: pathlib.Path, folder: pathlib.Path, name: str, rotation: np.ndarray | None) -> pathlib.Path:
+    """Computes dip 2 of the plan in a folder of run_plan() for another pose, or for the planned one by default. Returns
+    the folder of its artifacts."""
+    pose = folder / f"{name}.json"
+    command = [str(worker), "simulate", "--mesh", str(folder / "shape.ply"), "--plan", str(folder / "plan"),
+               "--immersion", "2", "--out", str(folder / name)]
+    if rotation is not None:
+        pose.write_text(json.dumps({"rotation_wxyz": rotation.tolist(), "translation_mm": [0, 0, 0]}))
+        command += ["--pose", str(pose)]
+    run(command)
+    return folder / name
 
 
 def judge_sphere(options: argparse.Namespace, folder: pathlib.Path) -> list[claims.Claim]:
@@ -101,13 +121,46 @@ def judge_threads(options: argparse.Namespace, folder: pathlib.Path) -> list[cla
     return out
 
 
+def judge_turned_dip(options: argparse.Namespace, folder: pathlib.Path) -> list[claims.Claim]:
+    """Dip 2 of a sphere's plan at a pose that is turned from the planned one, and at the planned one."""
+    limits, seam_mm, dpi = (claims.Limits(level=12), 0.24, 100) if options.small else (claims.Limits(), 0.1, 300)
+    sphere = closed_form.Sphere(40, FILM_MM)
+    shape = shapes.icosphere(sphere.radius_mm, 4 if options.small else 5)
+    plan = run_plan(options.worker, folder, shape, [shapes.about(0, 0), TURN_OVER], dpi)
+    rotation = shapes.after(shapes.about_line(TILTED, np.radians(options.turned)), TURN_OVER)
+    dip = run_second_dip(options.worker, folder, "measured", rotation)
+    images = turned.Images(*(png.read(dip / f"{name}.png") for name in ("film", "complete", "mask")))
+    pole = shapes.rotation(rotation) @ np.array([0.0, 0.0, 1.0])
+    out = turned.of_turned_dip(images, dpi, sphere, pole, WIDTH_MM, limits, seam_mm)
+    out += turned.of_warnings(warnings_of(dip), options.turned)
+    planned = png.read(plan / "film-2.png")
+    for name, pose in (("planned", TURN_OVER), ("default", None)):
+        dip = run_second_dip(options.worker, folder, name, pose)
+        for claim in turned.of_same_film(png.read(dip / "film.png"), planned) + turned.of_warnings(warnings_of(dip), 0):
+            out.append(dataclasses.replace(claim, what=f"{name} pose: {claim.what}"))
+    return out
+
+
+def warnings_of(folder: pathlib.Path) -> list[dict]:
+    return json.loads((folder / "report.json").read_text())["warnings"]
+
+
 CASES = {"sphere": judge_sphere, "turned": judge_turned_sphere, "cube": judge_cube, "plate": judge_plate, "threads": judge_threads}
+
+
+def turn_deg(text: str) -> float:
+    angle = float(text)
+    if not 0 < angle <= turned.MOST_TURN_DEG:
+        raise argparse.ArgumentTypeError(f"must be above 0 and at most {turned.MOST_TURN_DEG:g}")
+    return angle
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--worker", type=pathlib.Path, required=True, help="the program hydroprint-worker")
     parser.add_argument("--case", choices=CASES, action="append", help="only this case; may be repeated")
+    parser.add_argument("--turned", type=turn_deg, metavar="DEGREES",
+                        help="judge only `simulate --plan`, for a pose turned by this angle")
     parser.add_argument("--small", action="store_true", help="a coarser sphere and image, with wider limits")
     parser.add_argument("--no-images", dest="images", action="store_false", help="judge no film image")
     return parser.parse_args()
@@ -117,11 +170,12 @@ def main() -> int:
     options = arguments()
     failed = False
     with tempfile.TemporaryDirectory() as folder:
-        for case in options.case or CASES:
+        cases = {"turned-dip": judge_turned_dip} if options.turned else {name: CASES[name] for name in options.case or CASES}
+        for case, judge in cases.items():
             try:
-                found = CASES[case](options, pathlib.Path(folder) / case)
+                found = judge(options, pathlib.Path(folder) / case)
             except WorkerFailed as error:
-                print(f"{case}: no plan: {error}", file=sys.stderr)
+                print(f"{case}: nothing to judge: {error}", file=sys.stderr)
                 return 2
             for claim in found:
                 failed |= not claim.holds

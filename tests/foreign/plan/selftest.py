@@ -15,6 +15,7 @@ import judge
 import ply
 import png
 import shapes
+from selftest_turned import TurnedDipTest, TurnTest  # noqa: F401, run by main()
 
 SPHERE = closed_form.Sphere(40, 105)
 LIMITS = claims.Limits()

@@ -55,6 +55,17 @@ def between(start: np.ndarray, end: np.ndarray) -> np.ndarray:
     return out / np.linalg.norm(out)
 
 
+def about_line(line: np.ndarray, angle_rad: float) -> np.ndarray:
+    """The quaternion of a turn about any line through the origin."""
+    return np.array([np.cos(angle_rad / 2), *np.sin(angle_rad / 2) * line / np.linalg.norm(line)])
+
+
+def after(second: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """The quaternion of one turn after another."""
+    w, v = second[0], second[1:]
+    return np.array([w * first[0] - v @ first[1:], *(w * first[1:] + first[0] * v + np.cross(v, first[1:]))])
+
+
 def rotation(q: np.ndarray) -> np.ndarray:
     """The matrix of a unit quaternion."""
     w, x, y, z = q
