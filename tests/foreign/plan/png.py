@@ -1,4 +1,4 @@
-"""Reads PNG files with 8 bits per channel (PNG specification, third edition)."""
+"""Reads and writes PNG files with 8 bits per channel (PNG specification, third edition)."""
 from __future__ import annotations
 
 import pathlib
@@ -29,6 +29,16 @@ def read(path: pathlib.Path) -> np.ndarray:
         at += 12 + length
     rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * channels)
     return unfilter(rows[:, 0], rows[:, 1:].reshape(height, width, channels))
+
+
+def write(path: pathlib.Path, image: np.ndarray) -> None:
+    """Writes rows x columns x 3 channels, 0 to 255."""
+    height, width, _ = image.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), image.astype(np.uint8).reshape(height, -1)], axis=1)
+    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows.tobytes())),
+             (b"IEND", b"")]
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in parts))
 
 
 def unfilter(kinds: np.ndarray, filtered: np.ndarray) -> np.ndarray:

@@ -15,6 +15,7 @@ import judge
 import ply
 import png
 import shapes
+from selftest_colour import ColourTest  # noqa: F401, run by main()
 from selftest_turned import TurnedDipTest, TurnTest  # noqa: F401, run by main()
 
 SPHERE = closed_form.Sphere(40, 105)
@@ -172,6 +173,12 @@ class FileTest(unittest.TestCase):
             kinds = rng.integers(0, 5, 23)
             filtered = np.stack([(image[y] - guesses[kind][y]) & 255 for y, kind in enumerate(kinds)])
             self.assertTrue((png.unfilter(kinds, filtered.astype(np.uint8)) == image).all())
+
+    def test_written_png_is_read_again(self):
+        image = np.random.default_rng(7).integers(0, 256, (23, 31, 3))
+        with tempfile.TemporaryDirectory() as folder:
+            png.write(pathlib.Path(folder) / "a.png", image)
+            self.assertTrue((png.read(pathlib.Path(folder) / "a.png") == image).all())
 
     def test_paeth_prefers_left_then_up(self):
         for left, up, corner, expected in ((10, 20, 15, 15), (10, 20, 20, 10), (10, 20, 10, 20), (5, 5, 9, 5)):
