@@ -371,7 +371,12 @@ TEST_F(RealPlan, ComputesAPlanAndEachOfItsDips) {
   v1::CreateJobRequest print;
   print.mutable_job()->mutable_print_image()->set_simulate_job(dip.name());
   (void)done(print);
-  EXPECT_EQ(progress(plan.name()).dips(1).step(), v1::PlanProgress::DIP);
+  const v1::PlanProgress before = progress(plan.name());
+  EXPECT_EQ(before.dips(1).step(), v1::PlanProgress::DIP);
+  daemon->kill();
+  daemon->start();
+  client = std::make_unique<Client>(daemon->address());
+  EXPECT_EQ(progress(plan.name()).DebugString(), before.DebugString()) << "after a restart";
   v1::DeleteJobRequest remove;
   remove.set_name(plan.name());
   google::protobuf::Empty none;
