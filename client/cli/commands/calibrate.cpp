@@ -1,16 +1,13 @@
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "client/calibration.h"
 #include "client/cli/commands/commands.h"
-#include "client/cli/format/calibration_text.h"
+#include "client/cli/job_io/calibration.h"
 #include "client/cli/job_io/finish.h"
 #include "client/cli/job_io/inputs.h"
 #include "client/cli/job_io/submit_flags.h"
-#include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 #include "client/jobs.h"
 
@@ -41,11 +38,7 @@ Status take_frames(Program& program, const CalibrateOptions& options, Inputs& in
   }
   std::string capture = job_name(options.capture_job);
   if (capture.empty()) {
-    HP_ASSIGN_OR_RETURN(const v1::Job job,
-                        client::create_capture(program.daemon(), options.seconds, {}));
-    capture = job.name();
-    if (!program.json()) std::cout << capture << std::endl;
-    HP_RETURN_IF_ERROR(wait_for(program, capture, options.finish.wait));
+    HP_ASSIGN_OR_RETURN(capture, capture_frames(program, options.seconds, options.finish.wait));
   }
   spec.set_capture_job(capture);
   return {};
@@ -68,22 +61,9 @@ Result<v1::Job> make_job(Program& program, const CalibrateOptions& options) {
   return job;
 }
 
-/// Follows the job, then prints its calibration.
-Status finish(Program& program, const v1::Job& job, const FinishOptions& options) {
-  HP_RETURN_IF_ERROR(finish_job(program, job, options));
-  if (options.no_wait || program.json()) return {};
-  HP_ASSIGN_OR_RETURN(const auto list, client::list_calibrations(program.daemon(), 100));
-  for (const v1::Calibration& calibration : list.calibrations()) {
-    if (calibration.job() == job.name()) std::cout << text_of(calibration) << std::flush;
-  }
-  return {};
-}
-
 Status calibrate(Program& program, const CalibrateOptions& options) {
   HP_ASSIGN_OR_RETURN(const v1::Job job, make_job(program, options));
-  HP_ASSIGN_OR_RETURN(const v1::Job created,
-                      client::create_job(program.daemon(), job, options.job));
-  return finish(program, created, options.finish);
+  return run_calibration(program, job, options.job, options.finish);
 }
 
 Status calibrate_camera(Program& program, const CameraOptions& options) {
@@ -94,9 +74,7 @@ Status calibrate_camera(Program& program, const CameraOptions& options) {
   HP_ASSIGN_OR_RETURN(const auto frames,
                       inputs.add_frames({options.frames.begin(), options.frames.end()}));
   spec.mutable_frames()->Add(frames.begin(), frames.end());
-  HP_ASSIGN_OR_RETURN(const v1::Job created,
-                      client::create_job(program.daemon(), job, options.job));
-  return finish(program, created, options.finish);
+  return run_calibration(program, job, options.job, options.finish);
 }
 
 void add_name(CLI::App& command, client::JobOptions& job) {
