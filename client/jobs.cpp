@@ -164,6 +164,11 @@ Result<v1::ListJobEventsResponse> list_job_events(Connection& connection, const 
                    &v1::ListJobEventsResponse::events_size);
 }
 
+Result<v1::PlanProgress> plan_progress(Connection& connection, const std::string& plan_job) {
+  return call(connection, *connection.impl().jobs, &JobStub::GetPlanProgress,
+              named<v1::GetPlanProgressRequest>(plan_job));
+}
+
 Result<v1::Job> watch_job(Connection& connection, const std::string& name,
                           const std::function<void(const v1::WatchJobResponse&)>& update,
                           const std::function<void(const Error&)>& lost) {

@@ -79,6 +79,11 @@ struct JobFilter {
 [[nodiscard]] Result<v1::ListJobEventsResponse> list_job_events(Connection& connection,
                                                                 const std::string& name);
 
+/// Returns what has been done of a plan of several dips, and the next step of each dip. Errors: see
+/// JobService.GetPlanProgress.
+[[nodiscard]] Result<v1::PlanProgress> plan_progress(Connection& connection,
+                                                     const std::string& plan_job);
+
 /// Follows a job until it is finished and reports each message of the stream. Resumes after a lost
 /// connection, for up to a minute after the last message from the daemon.
 /// @param lost  called once each time the connection is lost

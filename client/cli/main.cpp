@@ -60,6 +60,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_calibrate_camera(app, program);
   add_calibrations(app, program);
   add_loop(app, program);
+  add_plan(app, program);
   add_print(app, program);
   add_dip(app, program);
   add_confirm(app, program);

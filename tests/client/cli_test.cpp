@@ -606,6 +606,8 @@ TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
   EXPECT_EQ(complete("rig move 10 --sp", 4), "--speed\n");
   EXPECT_EQ(complete("dip --simu", 2), "--simulate-job\n");
   EXPECT_EQ(complete("confirm 7 LAY", 3), "LAY_FILM\n");
+  EXPECT_EQ(complete("plan ne", 2), "next\n");
+  EXPECT_EQ(complete("plan next 7 --imm", 4), "--immersion\n");
   for (const char* shell : {"zsh", "fish"}) {
     const Outcome ended = client({"completion", shell});
     EXPECT_EQ(ended.status, 0);

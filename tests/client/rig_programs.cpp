@@ -7,15 +7,15 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-DaemonProcess::Options with(const VirtualRig& rig) {
-  DaemonProcess::Options options = DaemonProcess::fake();
-  options.extra = rig.section();
+DaemonProcess::Options with(const VirtualRig& rig, DaemonProcess::Options options) {
+  options.extra += rig.section();
   return options;
 }
 
 }  // namespace
 
-RigPrograms::RigPrograms() : daemon(folder.path(), with(rig)) {
+RigPrograms::RigPrograms(const DaemonProcess::Options& options)
+    : daemon(folder.path(), with(rig, options)) {
   EXPECT_TRUE(wait_until([&] { return state() == "DISARMED"; }));
 }
 

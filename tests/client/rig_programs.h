@@ -15,7 +15,7 @@ namespace hydroprint::tests {
 class RigPrograms {
  public:
   /// Waits until the daemon has connected to the rig.
-  RigPrograms();
+  explicit RigPrograms(const DaemonProcess::Options& options = DaemonProcess::fake());
 
   /// Arguments that run `hydroprint` as this user, with a separate folder for the lease.
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& arguments,

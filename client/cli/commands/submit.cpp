@@ -50,7 +50,7 @@ Status submit(Program& program, const JobFlags& options) {
     return {};
   }
   const bool waits = options.wait || !options.out.empty();
-  HP_RETURN_IF_ERROR(finish_job(program, job, {options.out, !waits, options.wait_options}));
+  HP_RETURN_IF_ERROR(finish_job(program, job, {options.out, !waits, options.wait_options, {}}));
   return waits && !program.json() ? tell_warnings(program, job.name()) : Status();
 }
 

@@ -39,7 +39,8 @@ Status finish_job(Program& program, const v1::Job& job, const FinishOptions& opt
   HP_ASSIGN_OR_RETURN(const v1::Job ended, wait_for(program, job.name(), options.wait));
   std::vector<Downloaded> files;
   if (!options.out.empty()) {
-    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), job.name(), {}, options.out));
+    HP_ASSIGN_OR_RETURN(files,
+                        download_all(program.daemon(), job.name(), options.artifacts, options.out));
   }
   if (!program.json()) {
     for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;

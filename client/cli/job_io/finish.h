@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
@@ -13,6 +14,7 @@ struct FinishOptions {
   std::string out;       ///< folder for its artifacts; empty: no download
   bool no_wait = false;  ///< only print the job's name
   WaitOptions wait;
+  std::vector<std::string> artifacts;  ///< names of the artifacts to download; empty: all
 };
 
 /// Adds --out, --no-wait and --cancel-on-interrupt.
