@@ -98,6 +98,12 @@ class DipSteps {
         fmt::format("dip {} of {}: {}", immersion_, facts_.spec.immersions_size(), what));
   }
 
+  std::vector<const v1::Job*> layouts_of(const std::string& film) const {
+    return all(facts_, [&](const v1::Job& job) {
+      return job.has_print_image() && job.print_image().simulate_job() == film;
+    });
+  }
+
   /// Returns whether the dip is done or in progress.
   bool find_dip() {
     const v1::Job* const done = find(dips_, is_done);
@@ -106,6 +112,8 @@ class DipSteps {
       out_.set_step(v1::PlanProgress::DONE);
       out_.set_dip_job(done->name());
       out_.set_simulate_job(done->dip().simulate_job());
+      if (const v1::Job* const layout = find(layouts_of(out_.simulate_job()), is_done))
+        out_.set_print_image_job(layout->name());
       say("done");
       return true;
     }
@@ -145,9 +153,7 @@ class DipSteps {
     const auto warned = facts_.warnings.find(film.name());
     if (warned != facts_.warnings.end())
       out_.mutable_warnings()->Assign(warned->second.begin(), warned->second.end());
-    const auto layouts = all(facts_, [&](const v1::Job& job) {
-      return job.has_print_image() && job.print_image().simulate_job() == film.name();
-    });
+    const auto layouts = layouts_of(film.name());
     if (!layouts.empty() && !is_over(*layouts.front())) return wait_for(*layouts.front());
     if (const v1::Job* const layout = find(layouts, is_done)) {
       out_.set_print_image_job(layout->name());

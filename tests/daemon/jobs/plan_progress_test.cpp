@@ -108,6 +108,7 @@ TEST_F(PlanOf3, EachDipGoesThroughItsSteps) {
     facts.calibrations[calibration].add_stale(v1::Calibration::DIPPED);
     EXPECT_EQ(step(k), Progress::DONE);
     EXPECT_EQ(progress().dips(k - 1).dip_job(), dip);
+    EXPECT_EQ(progress().dips(k - 1).print_image_job(), layout);
   }
   EXPECT_EQ(progress().next_immersion(), 0);
 }
