@@ -1,4 +1,5 @@
 import { beforeEach, expect, test, vi } from 'vitest';
+import { add } from '../src/model/dips';
 import type { Mesh } from '../src/model/mesh';
 import { done, refused } from '../src/model/result';
 import {
@@ -6,6 +7,7 @@ import {
   change,
   draft,
   jobOf,
+  simulateOf,
   kEmpty,
   lacksCoordinates,
   renewed,
@@ -114,9 +116,9 @@ test('starting over forgets all files', async () => {
   expect(arrangement.value.texture).toBeUndefined();
 });
 
-const jobWith = (more: Partial<Parameters<typeof jobOf>[1]>) => {
+const jobWith = (more: Partial<Parameters<typeof simulateOf>[1]>) => {
   const inputs = { mesh: { name: 'x', asset: 'assets/1' }, extraFiles: [], ...more };
-  return jobOf(draft.value, inputs, centre_mm.value).simulate;
+  return simulateOf(draft.value, inputs, centre_mm.value);
 };
 
 test('a job has the layer that was chosen, if it has a texture', async () => {
@@ -132,6 +134,31 @@ test('a job has the layer that was chosen, if it has a texture', async () => {
   // The coordinates of another model place the texture.
   await take([obj()]);
   expect(jobWith({ texture })).toMatchObject({ texture });
+});
+
+test('two dips are a plan, one is a simulation', async () => {
+  await take([stl()]);
+  const inputs = {
+    mesh: { name: 'x', asset: 'assets/1' },
+    texture: { name: 'cat.png', asset: 'assets/2' },
+    profile: { name: 'film.toml', asset: 'assets/3' },
+    extraFiles: [],
+  };
+  const job = () => jobOf(draft.value, inputs, centre_mm.value);
+  change({ depth_mm: 12, layer: { projection: 'box' } });
+  expect(job().plan).toBeUndefined();
+  const one = job().simulate!;
+  change(add(draft.value));
+  expect(job().simulate).toBeUndefined();
+  const { object, immersions, film } = job().plan!;
+  expect(immersions.length).toBe(2);
+  expect(immersions[0]).toEqual({ pose: one.pose, depthMm: 12 });
+  expect(immersions[1]!.pose!.rotationWxyz).not.toEqual(one.pose!.rotationWxyz);
+  expect(object).toMatchObject({ mesh: inputs.mesh, scale: one.scale, paint: one.paint });
+  expect(film).toMatchObject({ film: one.film, profile: inputs.profile });
+  // Another object begins with one dip.
+  await take([obj()]);
+  expect(job().plan).toBeUndefined();
 });
 
 test('the paint of a job stays as it is if this page cannot change it', () => {

@@ -1,4 +1,5 @@
 import { afterAll, beforeEach, describe, expect, test, vi } from 'vitest';
+import { add, remove } from '../src/model/dips';
 import { kUpright } from '../src/model/pose';
 import { change, clear, draft, shape } from '../src/screens/new_print/draft';
 import { History } from '../src/screens/new_print/history';
@@ -82,6 +83,17 @@ describe('steps of the draft', () => {
     redo();
     redo();
     expect(draft.value).toMatchObject({ scale: 10, pose: { centre_mm: [6, 0] } });
+  });
+
+  test('are additions and removals of dips', () => {
+    nextStep();
+    change(add(draft.value));
+    nextStep();
+    change(remove(draft.value, 0));
+    undo();
+    expect(draft.value.before).toEqual([kUpright]);
+    undo();
+    expect(draft.value).toMatchObject({ before: [], pose: kUpright, after: [] });
   });
 
   test('have a request id of their own', () => {

@@ -12,6 +12,7 @@ import type {
   JobInput,
   JobState,
   Lease,
+  PlanProgress,
   Queue,
   Rig,
   Role,
@@ -43,6 +44,7 @@ export const jobs = {
     call<Job>('POST', `${name}:move`, { json: { before } }),
   confirm: (name: string, step: string, leaseId: string) =>
     call<Job>('POST', `${name}:confirm`, { json: { step, leaseId } }),
+  planProgress: (plan: string) => call<PlanProgress>('GET', `${plan}/planProgress`),
   artifacts: (name: string) =>
     call<Page<'artifacts', Artifact>>('GET', `${name}/artifacts`, { query: { pageSize: 1000 } }),
 };
@@ -54,6 +56,10 @@ export const artifactPath = (job: string, file: string): string =>
 /** The URL of an artifact's bytes, for a link or an image. */
 export const artifactAddress = (job: string, file: string, isInline = false): string =>
   address(artifactPath(job, file), isInline ? { inline: 1 } : {});
+
+/** The URL of an image, by the name of its artifact: "jobs/7/artifacts/stretch-2.png". */
+export const imageAddress = (artifact: string): string =>
+  address(`${artifact}:download`, { inline: 1 });
 
 export const queue = {
   get: () => call<Queue>('GET', 'queue'),

@@ -44,6 +44,10 @@ export const kindText = (job: Job): string => {
 
 export const numberOf = (name: string): string => name.split('/')[1] ?? name;
 
+/** Which of the dips of an object: "Dip 2 of 3". */
+export const dipText = (immersion: number, immersions: number): string =>
+  `Dip ${immersion} of ${immersions}`;
+
 export const State = ({ state }: { state: JobState }) => (
   <span class={`state ${state.toLowerCase()}`}>{kStates[state] ?? state.toLowerCase()}</span>
 );

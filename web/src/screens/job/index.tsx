@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from 'preact/hooks';
 import { jobs as api, newRequestId } from '../../api/services';
-import type { Job, JobInput, PrintImageSpecInput } from '../../api/types';
+import type { Job, JobInput } from '../../api/types';
 import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
 import { go } from '../../route';
@@ -14,6 +14,8 @@ import { CalibrateView } from './calibrate_view';
 import { CaptureView } from './capture_view';
 import { DipView } from './dip_view';
 import { Files, Pictures } from './files';
+import { pagesOf } from './pages';
+import { PlanBody, PlanOf } from './plan_body';
 import { Results } from './results';
 import { SimulateView } from './simulate_view';
 import { WarningLines } from './warning_lines';
@@ -54,6 +56,7 @@ function Head({ job }: { job: Job }) {
           </>
         )}
         {job.cacheHit && ', result of an earlier identical job'}
+        <PlanOf job={job} />
         {job.retryOf && (
           <>
             , retry of <a href={`#/${job.retryOf}`}>{numberOf(job.retryOf)}</a>
@@ -160,17 +163,6 @@ function Keeping({ job }: { job: Job }) {
   );
 }
 
-/** The print-image spec with the paper and colours that were chosen on the New print page. */
-function pagesOf(job: Job): PrintImageSpecInput {
-  const { paper, colours } = job.labels;
-  return {
-    simulateJob: job.name,
-    jobName: job.displayName,
-    ...(paper ? { paper } : {}),
-    ...(colours === 'COLOURS_CMYK' ? { colours } : {}),
-  };
-}
-
 function Underway({ job }: { job: Job }) {
   const left = secondsUntil(job.etaTime);
   if (kindOf(job) === 'dip') return <Left job={job} />;
@@ -228,6 +220,8 @@ function Body({ job, results }: { job: Job; results: Results }) {
   switch (kindOf(job)) {
     case 'simulate':
       return job.state === 'SUCCEEDED' ? <SimulateView results={results} /> : null;
+    case 'plan':
+      return <PlanBody job={job} results={results} />;
     case 'dip':
       return <DipView job={job} results={results} />;
     case 'capture':

@@ -2,10 +2,18 @@
 import { batch, computed, effect, signal } from '@preact/signals';
 import * as rules from '../../api/rules';
 import { jobs as jobsApi, newRequestId } from '../../api/services';
-import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '../../api/types';
+import type {
+  InputFile,
+  Job,
+  JobInput,
+  PlanSpecInput,
+  SimulateSpec,
+  SimulateSpecInput,
+} from '../../api/types';
+import { posesOf, type Dips } from '../../model/dips';
 import { filmOf, type Film } from '../../model/film';
 import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
-import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
+import { fromApi, kUpright, toApi, type Vec3 } from '../../model/pose';
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 import { numberOf } from '../../ui/job_text';
@@ -13,14 +21,13 @@ import { enlarged, layerIn, type LayerChoices } from './picture/choices';
 import { layerOfOldDraft, pictureOf, pictureSpec } from './picture/spec';
 
 /** The user's choices, as plain values and files that IndexedDB can store. */
-export interface Draft {
+export interface Draft extends Dips {
   /** Dropped files; empty if the files of job `from` are used. */
   files: File[];
   /** The job that is run again with changes, and its spec. */
   from?: { job: string; spec: SimulateSpec };
   name: string;
   scale: number;
-  pose: Pose;
   /** How the picture comes to the surface, as far as it was chosen. */
   layer: LayerChoices;
   /** The calibration ("calibrations/7") whose pose is used instead of `pose`; empty for none. */
@@ -42,6 +49,8 @@ export const kEmpty: Draft = {
   name: '',
   scale: rules.SimulateSpec.scale.usual,
   pose: kUpright,
+  before: [],
+  after: [],
   layer: {},
   calibration: '',
   film: rules.SimulateSpec.film.usual,
@@ -189,28 +198,59 @@ export interface Inputs {
   profile?: InputFile;
 }
 
-/** Builds the request that creates the job. */
-export function jobOf(
-  value: Draft,
-  inputs: Inputs,
-  box_mm: Vec3,
-): JobInput & { simulate: SimulateSpecInput } {
+/** The picture in a spec. */
+const picture = ({ texture, hasOwnColours = false }: Inputs, { layer }: Draft) =>
+  texture ? pictureSpec(texture, layer, hasOwnColours) : {};
+
+/** Builds the simulation of the selected dip. */
+export function simulateOf(value: Draft, inputs: Inputs, box_mm: Vec3): SimulateSpecInput {
   const measured = value.calibration !== '';
-  const { texture, hasOwnColours = false, ...files } = inputs;
-  const simulate: SimulateSpecInput = {
+  const { texture: _, hasOwnColours: __, ...files } = inputs;
+  return {
     ...files,
     ...(measured
       ? { calibration: value.calibration }
       : { scale: value.scale, pose: toApi(value.pose, box_mm), film: value.film }),
-    ...(texture ? pictureSpec(texture, value.layer, hasOwnColours) : {}),
+    ...picture(inputs, value),
     dpi: value.dpi,
     model: value.model,
     dipSpeedMmPerS: value.speed_mm_per_s,
     ...(value.depth_mm ? { depthMm: value.depth_mm } : {}),
   };
+}
+
+/** Builds the plan that divides the picture among all dips. */
+function planOf(value: Draft, inputs: Inputs, box_mm: Vec3): PlanSpecInput {
+  const { mesh, extraFiles, profile, paint } = inputs;
+  return {
+    object: {
+      mesh,
+      extraFiles,
+      scale: value.scale,
+      ...(paint ? { paint } : {}),
+      ...picture(inputs, value),
+    },
+    immersions: posesOf(value).map((pose) => ({
+      pose: toApi(pose, box_mm),
+      ...(value.depth_mm ? { depthMm: value.depth_mm } : {}),
+    })),
+    film: {
+      film: value.film,
+      model: value.model,
+      dipSpeedMmPerS: value.speed_mm_per_s,
+      ...(profile ? { profile } : {}),
+    },
+    dpi: value.dpi,
+  };
+}
+
+/** Builds the request that creates the job: a simulation of one dip, or a plan of several. */
+export function jobOf(value: Draft, inputs: Inputs, box_mm: Vec3): JobInput {
   return {
     displayName: value.name,
     labels: { paper: value.paper, colours: value.colours },
-    simulate,
+    ...(posesOf(value).length > 1
+      ? { plan: planOf(value, inputs, box_mm) }
+      : { simulate: simulateOf(value, inputs, box_mm) }),
   };
 }

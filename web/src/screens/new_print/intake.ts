@@ -136,6 +136,8 @@ function begin(mesh: File, read: Shape, files: File[]): void {
     name: mesh.name.replace(/\.\w+$/, ''),
     scale: firstScale(read),
     layer: {},
+    before: [],
+    after: [],
   });
 }
 

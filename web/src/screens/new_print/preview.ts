@@ -8,11 +8,12 @@ import { call } from '../../api/call';
 import type { Preview, SimulateSpecInput } from '../../api/types';
 import { bytesOf } from '../../model/base64';
 import { upload } from '../../api/uploads';
+import type { Pose } from '../../model/pose';
 import type { Warning } from '../../model/report';
 import type { Result } from '../../model/result';
 import { may } from '../../state/session';
 import { calibrated } from './calibration';
-import { centre_mm, draft, jobOf, shape, type Draft, type Inputs } from './draft';
+import { centre_mm, draft, shape, simulateOf, type Draft, type Inputs } from './draft';
 import { inputsOf } from './intake';
 
 /** The displayed values of the last preview. */
@@ -29,13 +30,30 @@ export interface Shown {
 }
 
 export const shown = signal<Shown | undefined>(undefined);
+type Figures = Pick<Shown, 'coverage' | 'stretchP95'>;
+
+/** Previews of poses that have the same `of`: everything in the spec but the pose. */
+const seen = signal<{ of: string; figures: ReadonlyMap<Pose, Figures> }>({
+  of: '',
+  figures: new Map(),
+});
+
+/** The preview of a pose; undefined if there was none since something else changed. */
+export const figuresOf = (pose: Pose): Figures | undefined => seen.value.figures.get(pose);
+
+function keepFigures({ pose: _, ...others }: SimulateSpecInput, pose: Pose, figures: Figures) {
+  const of = JSON.stringify(others);
+  const known = of === seen.value.of ? seen.value.figures : [];
+  seen.value = { of, figures: new Map([...known, [pose, figures]]) };
+}
+
 /** Why there is no preview, if the input is the reason (for example, the object is beside the film). */
 export const refusal = signal('');
 export const isComputing = signal(false);
 
 const kPause_ms = 60;
 
-type Settings = Omit<Draft, 'layer' | 'requestId'>;
+type Settings = Omit<Draft, 'layer' | 'requestId' | 'before' | 'after'>;
 
 const isSame = (a: Settings, b: Settings): boolean => {
   const fields = new Set([...Object.keys(a), ...Object.keys(b)]) as Set<keyof Settings>;
@@ -43,9 +61,9 @@ const isSame = (a: Settings, b: Settings): boolean => {
 };
 
 let lastSettings: Settings | undefined;
-/** The draft without the picture's layer, which does not change a preview. */
+/** The draft without the picture's layer and the other dips, which do not change a preview. */
 const settings = computed(() => {
-  const { layer: _, requestId: __, ...now } = draft.value;
+  const { layer: _, requestId: __, before: ___, after: ____, ...now } = draft.value;
   if (!lastSettings || !isSame(lastSettings, now)) lastSettings = now;
   return lastSettings;
 });
@@ -137,13 +155,18 @@ class PreviewRequester {
     this.asking.abort();
     this.asking = new AbortController();
     const { signal: abortSignal } = this.asking;
-    const { simulate } = jobOf(draft.value, inputs, centre_mm.value);
+    const { pose } = draft.value;
+    const simulate = simulateOf(draft.value, inputs, centre_mm.value);
     const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
-    const answer = await compute(partOf(simulate, inputs), this.known?.key !== key, abortSignal);
+    const spec = partOf(simulate, inputs);
+    const answer = await compute(spec, this.known?.key !== key, abortSignal);
     if (abortSignal.aborted) return;
     isComputing.value = false;
-    if (answer.ok) return this.show(answer.value, key);
+    if (answer.ok) {
+      keepFigures(spec, pose, answer.value);
+      return this.show(answer.value, key);
+    }
     if (answer.failure.status === 404 || answer.failure.status === 501) this.isOff = true;
     shown.value = undefined;
     const isOfTheInput =

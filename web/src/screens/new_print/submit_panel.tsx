@@ -2,6 +2,8 @@ import { signal } from '@preact/signals';
 import { jobs as jobsApi } from '../../api/services';
 import { upload } from '../../api/uploads';
 import { remedyForMissing } from '../../model/arrangement';
+import { posesOf } from '../../model/dips';
+import type { Pose } from '../../model/pose';
 import { done, refused, type Failure, type Result } from '../../model/result';
 import { go } from '../../route';
 import { remember } from '../../state/jobs';
@@ -87,15 +89,20 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   });
 }
 
+function isBeside({ centre_mm: [x, y] }: Pose): boolean {
+  const { width_mm, height_mm } = film.value;
+  return Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2;
+}
+
 /** Returns the reason why the draft cannot be submitted; undefined if it can. */
 function obstacle(): string | undefined {
   if (!shape.value) return 'Drop a model, or choose a sample';
   const remedy = remedyForMissing(arrangement.value.missing);
   if (remedy) return remedy;
-  const [x, y] = (calibrated.value?.pose ?? draft.value.pose).centre_mm;
-  const { width_mm, height_mm } = film.value;
-  if (Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2)
-    return 'The object is beside the film. Move it over the film';
+  const poses = calibrated.value ? [calibrated.value.pose] : posesOf(draft.value);
+  const beside = poses.findIndex(isBeside);
+  if (beside >= 0)
+    return `The object is beside the film${poses.length > 1 ? ` in dip ${beside + 1}` : ''}. Move it over the film`;
   const calibration = calibrated.value?.calibration;
   if (calibration && staleness(calibration))
     return 'The calibration is no longer valid. Calibrate again, or enter the pose manually';
@@ -106,6 +113,7 @@ export function Submit() {
   const errors = useFormErrors();
   if (sending.value) return <Underway {...sending.value} />;
   const why = obstacle() ?? remedyOf(errors);
+  const count = posesOf(draft.value).length;
   return (
     <div class="submit">
       {failure.value && (
@@ -121,7 +129,7 @@ export function Submit() {
         aria-describedby="submit-why"
         onClick={() => void submit()}
       >
-        Simulate
+        {count > 1 ? `Compute ${count} dips` : 'Simulate'}
       </button>
       <p class="quiet" id="submit-why">
         {why ?? 'Computes the film image in seconds to minutes. Nothing is printed or moved yet.'}

@@ -1,20 +1,25 @@
-/** Undo and redo for the pose, the size and the picture of a new print. */
+/** Undo and redo for the dips' poses, the size and the picture of a new print. */
 import { computed, effect, signal } from '@preact/signals';
-import type { Pose } from '../../model/pose';
+import type { Dips } from '../../model/dips';
 import { change, draft, shape } from './draft';
 import { History } from './history';
 import { meshOf } from './intake';
 import type { LayerChoices } from './picture/choices';
 
-interface Step {
+interface Step extends Dips {
   layer: LayerChoices;
-  pose: Pose;
   scale: number;
 }
 
-const stepOf = ({ layer, pose, scale }: Step): Step => ({ layer, pose, scale });
-const isSame = (a: Step, b: Step): boolean =>
-  a.layer === b.layer && a.pose === b.pose && a.scale === b.scale;
+const kParts = ['layer', 'pose', 'before', 'after', 'scale'] as const;
+const stepOf = ({ layer, pose, before, after, scale }: Step): Step => ({
+  layer,
+  pose,
+  before,
+  after,
+  scale,
+});
+const isSame = (a: Step, b: Step): boolean => kParts.every((part) => a[part] === b[part]);
 
 // Another object begins another history.
 const object = computed(() => shape.value && (meshOf(draft.value.files) ?? draft.value.from?.job));

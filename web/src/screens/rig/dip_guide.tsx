@@ -1,5 +1,5 @@
 import { useEffect } from 'preact/hooks';
-import { jobs as api } from '../../api/services';
+import { imageAddress, jobs as api } from '../../api/services';
 import type { Job } from '../../api/types';
 import { formatSeconds } from '../../model/units';
 import { jobPath } from '../../route';
@@ -8,7 +8,7 @@ import { orNotify } from '../../state/notices';
 import { isOurs, leaseId, rig } from '../../state/rig';
 import { secondsUntil } from '../../ui/clock';
 import { Button, ConfirmButton } from '../../ui/controls';
-import { State } from '../../ui/job_text';
+import { dipText, State } from '../../ui/job_text';
 import { Jog } from './jog';
 
 /** The steps of a dip in order; `confirm` is the button text of steps that wait for the operator. */
@@ -31,6 +31,12 @@ const kSteps: { step: string; title: string; confirm?: string }[] = [
   { step: 'RETRACT', title: 'Raise the object again' },
 ];
 
+/** The steps in which the object is hung in its pose. */
+const kHanging: readonly string[] = ['PRINT_FILM', 'LOAD_OBJECT', 'FIND_CONTACT'];
+
+const titleOf = ({ immersion, immersions }: NonNullable<Job['dipStatus']>): string =>
+  immersion ? dipText(immersion, immersions) : 'Dip';
+
 /** The running dip: instruction, remaining time, and one large button. */
 export function DipGuide({ name }: { name: string }) {
   useEffect(() => void refresh(name), [name]);
@@ -44,11 +50,14 @@ export function DipGuide({ name }: { name: string }) {
   return (
     <section class="dip" aria-labelledby="dip-title">
       <h2 id="dip-title">
-        Dip, step {at + 1} of {kSteps.length}: {here?.title}
+        {titleOf(status)}, step {at + 1} of {kSteps.length}: {here?.title}
       </h2>
       <p class="instruction" role="status">
         {status.instruction}
       </p>
+      {status.picture && kHanging.includes(status.step) && (
+        <img class="planned-pose" src={imageAddress(status.picture)} alt="The planned pose" />
+      )}
       {left !== undefined && (
         <p class="clock" role="timer">
           {formatSeconds(Math.max(0, Math.ceil(left)))}
@@ -98,6 +107,11 @@ export function DipEnd({ name, again }: { name: string; again: () => void }) {
       {job?.dipStatus?.instruction && <p class="instruction">{job.dipStatus.instruction}</p>}
       {job?.error && <p class="warning">{job.error.message}</p>}
       <p class="row">
+        {job?.dipStatus?.planJob && (
+          <a class="button primary" href={jobPath(job.dipStatus.planJob)}>
+            Back to the plan
+          </a>
+        )}
         <a class="button" href={jobPath(name)}>
           Dip record
         </a>
