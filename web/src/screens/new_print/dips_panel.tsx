@@ -3,32 +3,40 @@ import type { Pose } from '../../model/pose';
 import { toAngles } from '../../model/pose';
 import { formatFactor, formatShare } from '../../model/units';
 import { calibrated } from './calibration';
-import { change, draft, shape } from './draft';
+import { change, draft } from './draft';
 import { figuresOf } from './preview';
 
-/** The dips of the print: one, or several that divide the picture among them. */
-export function DipsPanel() {
-  if (!shape.value || calibrated.value) return null;
+/** The dips among which the picture is divided; nothing for a print of one dip. */
+export function DipList() {
   const poses = dips.posesOf(draft.value);
-  const isFull = poses.length >= dips.kMostDips;
+  if (poses.length === 1) return null;
   return (
-    <div class="dips" role="group" aria-label="Dips">
-      {poses.length > 1 && (
-        <ol class="files">
-          {poses.map((pose, k) => (
-            <Dip key={k} pose={pose} at={k} />
-          ))}
-        </ol>
-      )}
-      <button type="button" disabled={isFull} onClick={() => change(dips.add(draft.value))}>
+    <ol class="files dips">
+      {poses.map((pose, k) => (
+        <Dip key={k} pose={pose} at={k} />
+      ))}
+    </ol>
+  );
+}
+
+export function AddDip() {
+  if (calibrated.value) return null;
+  const count = dips.posesOf(draft.value).length;
+  return (
+    <>
+      <button
+        type="button"
+        disabled={count >= dips.kMostDips}
+        onClick={() => change(dips.add(draft.value))}
+      >
         Add another dip
       </button>
       <p class="quiet">
-        {poses.length > 1
-          ? `The picture is divided: each place is printed by the dip that stretches the film least there. At most ${dips.kMostDips} dips.`
+        {count > 1
+          ? `Each place is printed by the dip that stretches the film least there. At most ${dips.kMostDips} dips.`
           : 'For sides that the film does not reach in this pose.'}
       </p>
-    </div>
+    </>
   );
 }
 

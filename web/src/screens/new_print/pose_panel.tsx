@@ -3,7 +3,7 @@ import { fromAngles, kUpright, product, toAngles, turn, type Vec3 } from '../../
 import { formatMm } from '../../model/units';
 import { Choice, NumberField } from '../../ui/controls';
 import { calibrated, calibrations, staleness } from './calibration';
-import { DipsPanel } from './dips_panel';
+import { AddDip, DipList } from './dips_panel';
 import { change, draft, shape } from './draft';
 
 const kAxes = ['x', 'y', 'z'] as const;
@@ -15,9 +15,9 @@ export function PosePanel() {
   return (
     <section aria-labelledby="pose-title">
       <h2 id="pose-title">2 Pose{isPlan && ` of dip ${draft.value.before.length + 1}`}</h2>
-      {!isPlan && <From />}
+      {isPlan ? <DipList /> : <From />}
       {calibrated.value ? <Measured /> : <ByHand />}
-      <DipsPanel />
+      <AddDip />
     </section>
   );
 }

@@ -3,7 +3,7 @@ import { effect } from '@preact/signals';
 import { jobs as api, newRequestId } from '../../api/services';
 import type { Job, JobInput, PlannedDip } from '../../api/types';
 import { isFinished, known, remember } from '../../state/jobs';
-import { complain, orNotify } from '../../state/notices';
+import { orNotify } from '../../state/notices';
 import { read } from './progress';
 import { calibration, capture, layout, simulation } from './steps';
 
@@ -25,17 +25,21 @@ const ended = (name: string): Promise<Job> =>
     });
   });
 
-/** Records frames of the hanging object, then measures its pose. */
-async function calibrate(plan: Job, dip: PlannedDip): Promise<void> {
-  const made = await create(capture(plan, dip));
-  if (!made) return;
-  const frames = await ended(made.name);
-  if (frames.state !== 'SUCCEEDED')
-    return complain({
-      what: `The frames could not be recorded${frames.error ? `: ${frames.error.message}` : ''}`,
-      remedy: 'Check the depth camera on the Rig page, then calibrate again',
-    });
-  await create(calibration(plan, dip, frames.name));
+/** Creates the job and returns it once it is finished; undefined if it was refused. */
+async function run(job: JobInput): Promise<Job | undefined> {
+  const made = await create(job);
+  return made && ended(made.name);
+}
+
+/**
+ * Records frames of the hanging object, then measures its pose.
+ * @return the job that ended without success, if any
+ */
+async function calibrate(plan: Job, dip: PlannedDip): Promise<Job | undefined> {
+  const frames = await run(capture(plan, dip));
+  if (frames?.state !== 'SUCCEEDED') return frames;
+  const measured = await run(calibration(plan, dip, frames.name));
+  return measured?.state === 'SUCCEEDED' ? undefined : measured;
 }
 
 export const compute = async (plan: Job, dip: PlannedDip): Promise<void> => {
@@ -43,10 +47,14 @@ export const compute = async (plan: Job, dip: PlannedDip): Promise<void> => {
   await read(plan.name);
 };
 
-/** Does the next step of a dip, if it creates jobs. */
-export async function take(plan: Job, dip: PlannedDip): Promise<void> {
-  if (dip.step === 'CALIBRATE') await calibrate(plan, dip);
+/**
+ * Does the next step of a dip, if it creates jobs.
+ * @return the job of a calibration that ended without success, which the plan's progress does not contain
+ */
+export async function take(plan: Job, dip: PlannedDip): Promise<Job | undefined> {
+  const failed = dip.step === 'CALIBRATE' ? await calibrate(plan, dip) : undefined;
   if (dip.step === 'SIMULATE') await create(simulation(plan, dip));
   if (dip.step === 'LAY_OUT') await create(layout(plan, dip));
   await read(plan.name);
+  return failed;
 }

@@ -2,9 +2,10 @@ import { useEffect, useState } from 'preact/hooks';
 import { artifactAddress, imageAddress } from '../../api/services';
 import type { Job, PlannedDip } from '../../api/types';
 import { beginnings } from '../../events';
+import { jobPath } from '../../route';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
-import { dipText } from '../../ui/job_text';
+import { dipText, kindText, numberOf } from '../../ui/job_text';
 import { DipRow } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
@@ -43,9 +44,11 @@ export function PlanView({ job }: { job: Job }) {
 function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number }) {
   // Calibrating has two jobs, between which the button stays the same.
   const [isBusy, setBusy] = useState(false);
+  const [failed, setFailed] = useState<Job>();
   const act = async () => {
     setBusy(true);
-    await take(plan, dip);
+    setFailed(undefined);
+    setFailed(await take(plan, dip));
     setBusy(false);
   };
   const page = isBusy ? undefined : pageOf(dip);
@@ -56,6 +59,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
       <p class="instruction" role="status">
         {withoutPlace(dip.instruction)}
       </p>
+      {failed && <Failed job={failed} />}
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
       {page && isAllowed ? (
         <a class="button primary large" href={page}>
@@ -66,6 +70,12 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
           {isBusy ? 'Working…' : actionText(dip)}
         </Button>
       )}
+      {dip.step === 'CALIBRATE' && (
+        <p class="quiet">
+          The camera must see the object. If it is near the water, raise it on the{' '}
+          <a href="#/rig">Rig page</a> first.
+        </p>
+      )}
       {!isAllowed && (
         <p class="quiet">
           This step needs the role {roleFor(dip) === 'MAKER' ? 'Maker' : 'Operator'}.
@@ -74,6 +84,14 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     </section>
   );
 }
+
+/** Why the calibration ended without success. */
+const Failed = ({ job }: { job: Job }) => (
+  <p class="warning" role="alert">
+    {job.error?.message ?? `The ${kindText(job)} was not completed`}.{' '}
+    <a href={jobPath(job.name)}>Job {numberOf(job.name)}</a>
+  </p>
+);
 
 /** The instruction without the number of the dip, which the heading shows. */
 const withoutPlace = (instruction: string): string => instruction.replace(/^dip \d+ of \d+: /, '');
