@@ -48,6 +48,10 @@ export const numberOf = (name: string): string => name.split('/')[1] ?? name;
 export const dipText = (immersion: number, immersions: number): string =>
   `Dip ${immersion} of ${immersions}`;
 
+/** An instruction without the number of its dip ("dip 2 of 3: "), for places where a heading shows it. */
+export const withoutDip = (instruction: string): string =>
+  instruction.replace(/^dip \d+ of \d+: /, '');
+
 export const State = ({ state }: { state: JobState }) => (
   <span class={`state ${state.toLowerCase()}`}>{kStates[state] ?? state.toLowerCase()}</span>
 );

@@ -69,8 +69,7 @@ function Dip({ pose, at }: { pose: Pose; at: number }) {
 function figuresText(pose: Pose): string | undefined {
   const figures = figuresOf(pose);
   return (
-    figures &&
-    `reaches ${formatShare(figures.coverage)}, stretch ${formatFactor(figures.stretchP95)}`
+    figures && `reach ${formatShare(figures.coverage)}, stretch ${formatFactor(figures.stretchP95)}`
   );
 }
 

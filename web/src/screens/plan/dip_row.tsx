@@ -53,19 +53,20 @@ function Downloads({ plan, dip }: { plan: Job; dip: PlannedDip }) {
       <a href={artifactAddress(files.job, film)} download={film}>
         {dip.simulateJob ? 'Film image' : 'Film image for the planned pose'}
       </a>
-      {dip.printImageJob && (
-        <a
-          href={artifactAddress(dip.printImageJob, 'print.pdf')}
-          download={`dip-${dip.immersion}.pdf`}
-        >
-          PDF
-        </a>
-      )}
+      <PdfLink dip={dip} />
       {dip.simulateJob && <a href={jobPath(dip.simulateJob)}>Job {numberOf(dip.simulateJob)}</a>}
       {dip.dipJob && <a href={jobPath(dip.dipJob)}>Dip record</a>}
     </>
   );
 }
+
+/** The pages to print; nothing until they are laid out. */
+export const PdfLink = ({ dip: { immersion, printImageJob } }: { dip: PlannedDip }) =>
+  printImageJob ? (
+    <a href={artifactAddress(printImageJob, 'print.pdf')} download={`dip-${immersion}.pdf`}>
+      PDF to print
+    </a>
+  ) : null;
 
 /** Secondary actions of a dip that is not the next one. */
 function Again({ plan, dip }: { plan: Job; dip: PlannedDip }) {

@@ -5,8 +5,8 @@ import { beginnings } from '../../events';
 import { jobPath } from '../../route';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
-import { dipText, kindText, numberOf } from '../../ui/job_text';
-import { DipRow } from './dip_row';
+import { dipText, kindText, numberOf, withoutDip } from '../../ui/job_text';
+import { DipRow, PdfLink } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
 import { actionText, nextOf, pageOf, roleFor } from './steps';
@@ -57,10 +57,15 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     <section class="dip next" aria-labelledby="next-title">
       <h2 id="next-title">{dipText(dip.immersion, dips)}</h2>
       <p class="instruction" role="status">
-        {withoutPlace(dip.instruction)}
+        {withoutDip(dip.instruction)}
       </p>
       {failed && <Failed job={failed} />}
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
+      {dip.step === 'DIP' && (
+        <p>
+          <PdfLink dip={dip} />
+        </p>
+      )}
       {page && isAllowed ? (
         <a class="button primary large" href={page}>
           {actionText(dip)}
@@ -92,9 +97,6 @@ const Failed = ({ job }: { job: Job }) => (
     <a href={jobPath(job.name)}>Job {numberOf(job.name)}</a>
   </p>
 );
-
-/** The instruction without the number of the dip, which the heading shows. */
-const withoutPlace = (instruction: string): string => instruction.replace(/^dip \d+ of \d+: /, '');
 
 const PlannedPose = ({ dip }: { dip: PlannedDip }) => (
   <img

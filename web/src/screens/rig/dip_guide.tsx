@@ -8,7 +8,7 @@ import { orNotify } from '../../state/notices';
 import { isOurs, leaseId, rig } from '../../state/rig';
 import { secondsUntil } from '../../ui/clock';
 import { Button, ConfirmButton } from '../../ui/controls';
-import { dipText, State } from '../../ui/job_text';
+import { dipText, State, withoutDip } from '../../ui/job_text';
 import { Jog } from './jog';
 
 /** The steps of a dip in order; `confirm` is the button text of steps that wait for the operator. */
@@ -53,7 +53,7 @@ export function DipGuide({ name }: { name: string }) {
         {titleOf(status)}, step {at + 1} of {kSteps.length}: {here?.title}
       </h2>
       <p class="instruction" role="status">
-        {status.instruction}
+        {withoutDip(status.instruction)}
       </p>
       {status.picture && kHanging.includes(status.step) && (
         <img class="planned-pose" src={imageAddress(status.picture)} alt="The planned pose" />
