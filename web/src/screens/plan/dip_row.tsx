@@ -23,6 +23,11 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
         Dip {dip.immersion} <span class={`state ${stateClass(dip)}`}>{stateText(dip)}</span>
       </h3>
       {dip.trouble && <p class="warning">{dip.trouble}.</p>}
+      {(dip.warnings ?? []).map((warning) => (
+        <p class="warning" key={warning}>
+          {warning}
+        </p>
+      ))}
       <div class="thumbnails">
         {Object.entries(kPictures).map(([kind, text]) => (
           <figure key={kind}>
