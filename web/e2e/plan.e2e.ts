@@ -2,20 +2,20 @@
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from 'playwright-core';
-import { beforeEach, expect, test } from 'vitest';
+import { beforeEach, expect } from 'vitest';
 import { addPeople, come } from './accounts';
 import { look, picture } from './checks';
 import { stripes } from './models';
-import { usePlace } from './place';
+import { rareTest, usePlace } from './place';
 import { restRig } from './rig_at_rest';
 import { bracket } from './solids';
 
 const there = usePlace(({ daemon }) => addPeople(daemon.address));
 beforeEach(() => restRig(there.daemon));
 
-const kLong = { timeout: 60_000 };
+const kLong = { timeout: 120_000 };
 
-/** The bracket hangs on a rod, because the camera takes what is as high as the gripper for the gripper. */
+/** The bracket hangs on a rod: directly at the gripper, its calibration found no object in view. */
 const kRod_mm = 20;
 
 /** Hangs the bracket below the gripper of the virtual rig, upright or turned over about x. */
@@ -63,7 +63,7 @@ async function finishDip(page: Page): Promise<void> {
   await page.getByText('The dip has ended').waitFor(kLong);
 }
 
-test('two dips are planned, computed for the measured poses, and dipped', async () => {
+rareTest('two dips are planned, computed for the measured poses, and dipped', async () => {
   const person = await come(there, 'otto', 'rig');
   const { page } = person;
   const folder = mkdtempSync(join(there.daemon.folder, 'plan-'));
