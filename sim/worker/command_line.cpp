@@ -183,10 +183,11 @@ Error VerbParser::located(Error error) const {
   return error;
 }
 
-/// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a file.
+/// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a spec
+/// or in a file that an option names (metadata "file").
 CommandLine VerbParser::refuse_options(const Error& error) const {
   const bool is_usage =
-      !run_.spec && error.code != Code::kOutOfRange && error.metadata.contains("field");
+      !run_.spec && error.code != Code::kOutOfRange && !error.metadata.contains("file");
   return refuse(run_.options, is_usage ? ExitStatus::kUsage : ExitStatus::kBadInput,
                 located(error));
 }

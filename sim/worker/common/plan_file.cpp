@@ -22,15 +22,24 @@ constexpr const char* kPlanPly = "plan.ply";
 constexpr std::size_t kMostBytes = 1 << 20;
 constexpr const char* kAgain = "Make the plan again";
 
+/// Marks an error as one of a file.
+tl::unexpected<Error> of_file(Error error, const std::filesystem::path& file) {
+  error.metadata["file"] = file.string();
+  return tl::unexpected(std::move(error));
+}
+
 tl::unexpected<Error> refuse(const std::filesystem::path& file, const std::string& what) {
-  return fail(Code::kInvalidArgument, fmt::format("{}: {}. {}", file.string(), what, kAgain));
+  return of_file(
+      {Code::kInvalidArgument, fmt::format("{}: {}. {}", file.string(), what, kAgain), {}, {}},
+      file);
 }
 
 Result<v1::Plan> read_plan(const std::filesystem::path& file) {
-  HP_ASSIGN_OR_RETURN(const std::string text, read_text_file(file, kMostBytes));
+  const auto text = read_text_file(file, kMostBytes);
+  if (!text) return of_file(text.error(), file);
   v1::Plan plan;
   const google::protobuf::LogSilencer silencer;
-  const auto status = google::protobuf::util::JsonStringToMessage(text, &plan);
+  const auto status = google::protobuf::util::JsonStringToMessage(*text, &plan);
   if (!status.ok()) return refuse(file, "not a plan: " + std::string(status.message()));
   if (plan.immersions().empty() || plan.immersions_size() > plan::kMaxDips)
     return refuse(file, fmt::format("has {} dips", plan.immersions_size()));
