@@ -9,6 +9,7 @@
 namespace hydroprint::daemon {
 namespace {
 
+constexpr const char* kDefaultFilm = "A4";
 constexpr const char* kFiles[] = {"plan.json", "plan.ply"};
 
 Status take_object(const v1::ObjectSetup& object, const std::string& plan, v1::SimulateSpec& spec) {
@@ -69,6 +70,18 @@ Status take_plan(v1::SimulateSpec& spec, const JobSources& sources) {
   HP_RETURN_IF_ERROR(take_object(plan.object(), spec.plan_job(), spec));
   take_film(plan, spec);
   return {};
+}
+
+std::optional<CalibrationMismatch> mismatch(const v1::Calibration& calibration,
+                                            std::optional<double> scale, const std::string& film) {
+  const double planned_scale = scale.value_or(1);
+  const std::string planned_film = film.empty() ? kDefaultFilm : film;
+  if (calibration.scale() != planned_scale) {
+    return CalibrationMismatch{fmt::format("scale {:g}", calibration.scale()),
+                               fmt::format("{:g}", planned_scale)};
+  }
+  if (calibration.film().empty() || calibration.film() == planned_film) return std::nullopt;
+  return CalibrationMismatch{"film " + calibration.film(), planned_film};
 }
 
 Status adopt_plan(v1::SimulateSpec& spec, const JobSources& sources) {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
+#include "daemon/jobs/plan_binding.h"
+
 namespace hydroprint::daemon {
 namespace {
 
 using Dip = v1::PlanProgress::Dip;
-
-constexpr const char* kDefaultFilm = "A4";
 
 bool is_over(const v1::Job& job) {
   return job.state() == v1::Job::SUCCEEDED || job.state() == v1::Job::FAILED ||
@@ -18,7 +18,7 @@ bool is_over(const v1::Job& job) {
 
 bool is_done(const v1::Job& job) { return job.state() == v1::Job::SUCCEEDED; }
 
-/// Returns the first job for which a condition holds; nullptr if there is none.
+/// Returns the first job that meets the condition, or nullptr.
 template <class Condition>
 const v1::Job* find(const std::vector<const v1::Job*>& jobs, const Condition& condition) {
   const auto found = std::ranges::find_if(jobs, [&](const v1::Job* j) { return condition(*j); });
@@ -52,11 +52,9 @@ bool is_usable(const PlanFacts& facts, int immersion) {
   if (!facts.active || !facts.active->stale().empty()) return false;
   const v1::Calibration& calibration = *facts.active;
   const v1::ObjectSetup& object = facts.spec.object();
-  const double scale = object.has_scale() ? object.scale() : 1;
-  const std::string film =
-      facts.spec.film().has_film() ? facts.spec.film().film() : std::string(kDefaultFilm);
-  if (calibration.mesh().asset() != object.mesh().asset() || calibration.scale() != scale ||
-      (!calibration.film().empty() && calibration.film() != film)) {
+  const auto scale = object.has_scale() ? std::optional(object.scale()) : std::nullopt;
+  if (calibration.mesh().asset() != object.mesh().asset() ||
+      mismatch(calibration, scale, facts.spec.film().film())) {
     return false;
   }
   return std::ranges::none_of(facts.jobs, [&](const v1::Job& job) {
@@ -143,8 +141,8 @@ class DipSteps {
   bool is_valid(const v1::Job& film) {
     const auto known = facts_.calibrations.find(film.simulate().calibration());
     if (known == facts_.calibrations.end() || known->second.stale().empty()) return true;
-    out_.set_trouble(fmt::format("{} was computed with {}, which is no longer valid", film.name(),
-                                 known->first));
+    out_.set_trouble(
+        fmt::format("{} is out of date, because {} is no longer valid", film.name(), known->first));
     return false;
   }
 
@@ -171,7 +169,7 @@ class DipSteps {
     }
     out_.set_step(v1::PlanProgress::SIMULATE);
     if (!is_usable(facts_, immersion_))
-      return say("compute the film for the planned pose, because there is no depth camera");
+      return say("compute the film for the planned pose (this rig has no depth camera)");
     out_.set_calibration(facts_.active->name());
     say("compute the film for the measured pose");
   }

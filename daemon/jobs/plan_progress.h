@@ -10,7 +10,7 @@
 
 namespace hydroprint::daemon {
 
-/// What is known about a plan of several dips.
+/// A plan of several dips, and all jobs and calibrations from which its progress follows.
 struct PlanFacts {
   std::string plan_job;  ///< "jobs/7"
   v1::PlanSpec spec;

@@ -10,8 +10,6 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr const char* kDefaultFilm = "A4";
-
 class SimulateKind final : public KindOf<v1::SimulateSpec> {
  private:
   /// If a plan is named, object, picture, scale and film are taken from it; if a calibration is
@@ -55,20 +53,14 @@ class SimulateKind final : public KindOf<v1::SimulateSpec> {
   /// The calibration must be for the plan's film and scale.
   [[nodiscard]] static Status check_planned(const v1::Calibration& calibration,
                                             const v1::SimulateSpec& spec) {
-    const double scale = spec.has_scale() ? spec.scale() : 1;
-    const std::string film = spec.has_film() ? spec.film() : kDefaultFilm;
-    const auto refuse = [&](const std::string& own, const std::string& planned) {
-      return invalid_field("simulate.calibration",
-                           fmt::format("{} is for {}, but {} for {}; calibrate with the plan's "
-                                       "scale and film",
-                                       calibration.name(), own, spec.plan_job(), planned));
-    };
-    if (calibration.scale() != scale) {
-      return refuse(fmt::format("scale {:g}", calibration.scale()), fmt::format("{:g}", scale));
-    }
-    if (!calibration.film().empty() && calibration.film() != film)
-      return refuse("film " + calibration.film(), film);
-    return {};
+    const auto found = mismatch(
+        calibration, spec.has_scale() ? std::optional(spec.scale()) : std::nullopt, spec.film());
+    if (!found) return {};
+    return invalid_field(
+        "simulate.calibration",
+        fmt::format("{} is for {}, but {} for {}; calibrate with the plan's scale "
+                    "and film",
+                    calibration.name(), found->own, spec.plan_job(), found->planned));
   }
 
   static void add_polygon(const v1::InputFile& polygon, v1::SimulateSpec& spec) {
