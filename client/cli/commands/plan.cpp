@@ -38,7 +38,8 @@ Status do_next(Program& program, const PlanOptions& options) {
 }
 
 constexpr char kNextFooter[] =
-    "Does one step and says what comes next. For each dip: measure the pose of the hung object\n"
+    "Does the next step, and names the one after it. For each dip: measure the pose of the hung "
+    "object\n"
     "(with a depth camera), compute the film for that pose, lay it out for the printer, and dip.\n"
     "The dip is guided and needs an armed and homed rig, like 'hydroprint dip'. After a failed\n"
     "step, the same command tries it again. Steps that you do with other commands count as well,\n"
@@ -50,7 +51,7 @@ constexpr char kNextFooter[] =
 
 void add_plan_show(CLI::App& parent, Program& program) {
   auto job = std::make_shared<std::string>();
-  CLI::App* command = parent.add_subcommand("show", "Show what is done, and the next step");
+  CLI::App* command = parent.add_subcommand("show", "Show the state of each dip and the next step");
   add_job_argument(*command, *job);
   command->footer("Example:\n  hydroprint plan show 7");
   program.on(*command, [&program, job] { return show_plan(program, *job); });
