@@ -25,8 +25,10 @@ void say(const Program& program, const std::string& text) {
   (program.json() ? std::cerr : std::cout) << text << std::flush;
 }
 
+/// Asks for Enter. The keyboard is taken first, because keys pressed before that are lost.
 Status wait_for_enter(const Program& program) {
   Keyboard keyboard;
+  say(program, "  Enter when it hangs; Ctrl-C ends this command\n");
   while (!program.is_interrupted() && !keyboard.gone()) {
     const auto keys = keyboard.read(std::chrono::milliseconds(100));
     if (std::find(keys.begin(), keys.end(), Key::kEnter) != keys.end()) return {};
@@ -76,10 +78,7 @@ class DipOfPlan {
                   "it does, or a terminal");
     HP_ASSIGN_OR_RETURN(const v1::Job plan, get_plan());
     show_picture();
-    if (!options_.yes) {
-      say(program_, "  Enter when it hangs; Ctrl-C ends this command\n");
-      HP_RETURN_IF_ERROR(wait_for_enter(program_));
-    }
+    if (!options_.yes) HP_RETURN_IF_ERROR(wait_for_enter(program_));
     v1::Job job;
     v1::CalibrateSpec& spec = *job.mutable_calibrate();
     take_object(plan.plan(), spec);
