@@ -23,8 +23,14 @@ std::vector<SeamSegment> circle(double radius_mm, double z_mm, int dip, int othe
   return out;
 }
 
+Context with_two_threads() {
+  Context context;
+  context.threads = 2;
+  return context;
+}
+
 double shift(const std::vector<SeamSegment>& seam, const std::vector<SeamSegment>& from, int dip) {
-  return testing::value_of(seam_shift_mm(seam, from, dip, Context{.threads = 2}));
+  return testing::value_of(seam_shift_mm(seam, from, dip, with_two_threads()));
 }
 
 TEST(SeamShift, IsTheLargestDistanceOfParallelCircles) {
@@ -56,7 +62,9 @@ TEST(SeamShift, SeamsOfOtherDipsDoNotCount) {
 
 TEST(SeamShift, EndsWhenCancelled) {
   const auto seam = circle(40, 0, 1, 2);
-  const auto out = seam_shift_mm(seam, seam, 1, Context{.cancelled = [] { return true; }});
+  Context context;
+  context.cancelled = [] { return true; };
+  const auto out = seam_shift_mm(seam, seam, 1, context);
   ASSERT_FALSE(out);
   EXPECT_EQ(out.error().code, Code::kCancelled);
 }
