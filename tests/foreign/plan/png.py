@@ -12,9 +12,13 @@ CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # by colour type
 
 def read(path: pathlib.Path) -> np.ndarray:
     """Returns rows x columns x channels, 0 to 255."""
-    data = path.read_bytes()
+    return decode(path.read_bytes(), str(path))
+
+
+def decode(data: bytes, name: str) -> np.ndarray:
+    """The same for the content of a file. The name is for messages."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
-        raise ValueError(f"{path}: not a PNG file")
+        raise ValueError(f"{name}: not a PNG file")
     at, packed, width, height, channels = 8, b"", 0, 0, 0
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -22,7 +26,7 @@ def read(path: pathlib.Path) -> np.ndarray:
         if kind == b"IHDR":
             width, height, depth, colour, _, _, interlace = struct.unpack(">IIBBBBB", body)
             if depth != 8 or interlace or colour not in CHANNELS:
-                raise ValueError(f"{path}: depth {depth}, colour type {colour}, interlace {interlace}")
+                raise ValueError(f"{name}: depth {depth}, colour type {colour}, interlace {interlace}")
             channels = CHANNELS[colour]
         elif kind == b"IDAT":
             packed += body
@@ -33,12 +37,17 @@ def read(path: pathlib.Path) -> np.ndarray:
 
 def write(path: pathlib.Path, image: np.ndarray) -> None:
     """Writes rows x columns x 3 channels, 0 to 255."""
+    path.write_bytes(encode(image))
+
+
+def encode(image: np.ndarray, level: int = -1) -> bytes:
+    """The content of such a file. level: of zlib's compression."""
     height, width, _ = image.shape
     rows = np.concatenate([np.zeros((height, 1), np.uint8), image.astype(np.uint8).reshape(height, -1)], axis=1)
-    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows.tobytes())),
+    parts = [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(rows.tobytes(), level)),
              (b"IEND", b"")]
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in parts))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body)) for kind, body in parts)
 
 
 def unfilter(kinds: np.ndarray, filtered: np.ndarray) -> np.ndarray:
