@@ -66,7 +66,8 @@ def document(parts: list[Part], summary: dict, translation_mm: tuple[float, ...]
 
     for part in parts:
         attributes = {"POSITION": accessor((part.points - translation_mm).astype(np.float32))}
-        material = {"extensions": {"KHR_materials_unlit": {}}, "pbrMetallicRoughness": {"baseColorFactor": list(part.factor)}}
+        material = {"extensions": {"KHR_materials_unlit": {}},
+                    "pbrMetallicRoughness": {"baseColorFactor": list(part.factor)}}
         if part.uv is not None:
             attributes["TEXCOORD_0"] = accessor(part.uv.astype(np.float32))
         if part.colour is not None:
@@ -96,8 +97,16 @@ def with_padding(rows: np.ndarray) -> np.ndarray:
 def summary_of(parts: list[Part]) -> dict:
     """What report.json says of the parts."""
     points = np.concatenate([part.points for part in parts])
-    return {"format": "OBJ", "vertices": len(points), "triangles": sum(len(part.triangles) for part in parts),
-            "min_mm": points.min(axis=0).tolist(), "max_mm": points.max(axis=0).tolist(), "warnings": []}
+    count = sum(len(part.triangles) for part in parts)
+    return {"format": "OBJ", "vertices": len(points), "triangles": count, "shown_triangles": count,
+            "lowest_mm": points.min(axis=0).tolist(), "highest_mm": points.max(axis=0).tolist(), "warnings": []}
+
+
+def film_image() -> np.ndarray:
+    """The film that prints the sphere; its first row is at the largest y."""
+    out = np.full((283, 283, 3), 255, np.uint8)
+    out[:141, 142:], out[:141, :141], out[142:, :141], out[142:, 142:] = COLOURS
+    return out
 
 
 def quadrants(points: np.ndarray) -> np.ndarray:
