@@ -11,6 +11,7 @@ import png
 RING_MM, TUBE_MM = 60.0, 18.0
 TORUS_CELLS = (500, 300)  # around the ring and around the tube
 TORUS_TEXTURE = 1024
+TORUS_REPEATS = (3, -2)  # added to the texture coordinates, which repeat
 CONFETTI = 250_000
 CONFETTI_BOX_MM = np.array([200.0, 150.0, 100.0])
 CONFETTI_MM = 0.2
@@ -73,7 +74,7 @@ def write_torus(folder: pathlib.Path, picture: Waves) -> pathlib.Path:
                for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     faces = np.concatenate([np.stack([n for k in triple for n in corners[k]], axis=1) for triple in ((0, 1, 2), (0, 2, 3))])
     (folder / "torus.obj").write_text("mtllib torus.mtl\nusemtl skin\n" + lines("v %.7g %.7g %.7g\n", points)
-                                      + lines("vt %.7g %.7g\n", grid.reshape(-1, 2))
+                                      + lines("vt %.7g %.7g\n", grid.reshape(-1, 2) + TORUS_REPEATS)
                                       + lines("f %d/%d %d/%d %d/%d\n", faces))
     (folder / "torus.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
     png.write(folder / "skin.png", picture.image(TORUS_TEXTURE, TORUS_TEXTURE))
