@@ -6,6 +6,10 @@
 
 namespace hydroprint::client {
 
+/// Reads a model for display. Errors: see PreviewService.ReadModel.
+[[nodiscard]] Result<v1::DisplayModel> read_model(Connection& connection,
+                                                  const v1::InspectSpec& spec);
+
 /// Computes a preview. Uses these fields of the spec: mesh with its files, profile, scale, pose,
 /// film, immersion depth and dip speed. Errors: see PreviewService.ComputePreview.
 [[nodiscard]] Result<v1::Preview> compute_preview(Connection& connection,

@@ -41,6 +41,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_sample(app, program);
   add_upload(app, program);
   add_submit(app, program);
+  add_inspect(app, program);
   add_preview(app, program);
   add_watch(app, program);
   add_list(app, program);

@@ -27,7 +27,7 @@ using grpc::experimental::ServerRpcInfo;
 constexpr std::int64_t kRecordInterval_ms = 60'000;
 constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
-constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // changes nothing
+constexpr const char* kPreviews = "hydroprint.v1.PreviewService.";  // they change nothing
 
 // Shortens "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
 std::string short_name(const std::string& method) {
@@ -205,7 +205,7 @@ bool is_noted(std::string method) {
   const auto* const found =
       google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
   if (found == nullptr || found->client_streaming() || found->server_streaming() ||
-      method == kPreview)
+      method.starts_with(kPreviews))
     return false;
   const auto& options = found->options();
   return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -25,16 +26,14 @@ void add_warnings(const Json& head, v1::Preview& out) {
   }
 }
 
-void add_mesh(const PreviewFrame& frame, bool with_mesh, v1::Preview& out) {
+void add_model(PreviewFrame frame, v1::DisplayModel& out) {
   const Json head = Json::parse(frame.head);
-  out.set_vertices(head.at("vertices").get<std::int64_t>());
-  out.set_triangles(head.at("triangles").get<std::int64_t>());
-  add_warnings(head, out);
-  if (!with_mesh) return;
-  const std::size_t cut =
-      std::min(frame.bytes.size(), 12 * static_cast<std::size_t>(out.vertices()));
-  out.set_vertex_positions(frame.bytes.substr(0, cut));
-  out.set_triangle_corners(frame.bytes.substr(cut));
+  google::protobuf::util::JsonParseOptions options;
+  options.ignore_unknown_fields = true;
+  const auto read = google::protobuf::util::JsonStringToMessage(head.at("summary").dump(),
+                                                                out.mutable_summary(), options);
+  if (!read.ok()) throw Json::other_error::create(0, read.ToString(), &head);
+  out.set_glb(std::move(frame.bytes));
 }
 
 void add_dip(PreviewFrame frame, v1::Preview& out) {
@@ -60,26 +59,33 @@ class PreviewService final : public v1::PreviewService::Service {
  public:
   explicit PreviewService(const ServiceContext& backend) : backend_(backend) {}
 
+  grpc::Status ReadModel(grpc::ServerContext* context, const v1::ReadModelRequest* request,
+                         v1::DisplayModel* reply) override {
+    return to_grpc(answer(*context, *request, check_read, add_model, *reply));
+  }
+
   grpc::Status ComputePreview(grpc::ServerContext* context,
                               const v1::ComputePreviewRequest* request,
                               v1::Preview* reply) override {
-    return to_grpc(compute(*context, *request, *reply));
+    return to_grpc(answer(*context, *request, check_preview, add_dip, *reply));
   }
 
  private:
-  Status compute(const grpc::ServerContext& context, const v1::ComputePreviewRequest& request,
-                 v1::Preview& reply) {
+  // Has a worker answer a request.
+  // @param check  translates the request for the worker
+  // @param add  copies the worker's answer to the reply; throws an exception of the JSON library
+  template <class Request, class Reply>
+  Status answer(const grpc::ServerContext& context, const Request& request,
+                Result<PreviewRequest> (*check)(const Request&), void (*add)(PreviewFrame, Reply&),
+                Reply& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
-    const std::string& owner = caller.name;
     HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.database));
-    HP_ASSIGN_OR_RETURN(const PreviewRequest ask, check_preview(request));
-    HP_ASSIGN_OR_RETURN(PreviewResult shown, backend_.previews.compute(owner, ask, [&context] {
-      return context.IsCancelled();
-    }));
+    HP_ASSIGN_OR_RETURN(const PreviewRequest ask, check(request));
+    const auto is_gone = [&context] { return context.IsCancelled(); };
+    HP_ASSIGN_OR_RETURN(PreviewFrame frame, backend_.previews.compute(caller.name, ask, is_gone));
     try {
-      add_mesh(*shown.mesh, request.with_mesh(), reply);
-      add_dip(std::move(shown.dip), reply);
+      add(std::move(frame), reply);
     } catch (const Json::exception& error) {
       return fail(Code::kInternal,
                   fmt::format("the worker's preview cannot be read: {}; check that workers.program "

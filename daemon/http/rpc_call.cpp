@@ -60,6 +60,21 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   co_return "options";
 }
 
+// Returns the answer to a call that succeeded: JSON, or the bytes of a field.
+Result<Response> response_of(const ServerContext& server, const std::string& method,
+                             const std::string& message) {
+  HP_ASSIGN_OR_RETURN(std::optional<rest::RawBody> raw,
+                      server.transcoder.raw_body(method, message));
+  if (raw) {
+    Response response;
+    response.fields.set("Content-Type", raw->media_type);
+    response.body = std::move(raw->bytes);
+    return response;
+  }
+  HP_ASSIGN_OR_RETURN(std::string json, server.transcoder.write(method, message));
+  return json_response(200, std::move(json));
+}
+
 Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call request,
                         InProcessChannel::Metadata metadata) {
   const std::string method = request.method;
@@ -69,12 +84,12 @@ Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call re
     co_return;
   }
   const auto set_cookie = take_session(method, reply.response, exchange.socket().is_secure());
-  Result<std::string> json = server.transcoder.write(method, reply.response);
-  if (!json) {
-    co_await refuse(exchange, json.error());
+  Result<Response> made = response_of(server, method, reply.response);
+  if (!made) {
+    co_await refuse(exchange, made.error());
     co_return;
   }
-  Response response = json_response(200, std::move(*json));
+  Response response = std::move(*made);
   if (set_cookie) response.fields.set("Set-Cookie", *set_cookie);
   co_await exchange.send(std::move(response));
 }

@@ -15,6 +15,7 @@
 #include "daemon/rest/routes.h"
 #include "daemon/rest/sequence.h"
 #include "daemon/rest/values.h"
+#include "hydroprint/v1/access.pb.h"
 #include "proto/write_json.h"
 
 namespace hydroprint::rest {
@@ -196,6 +197,26 @@ Result<std::string> Transcoder::write(std::string_view method, std::string_view 
     return fail(Code::kInternal, called->full_name() + ": the response cannot be parsed");
   }
   return write_json(*message);
+}
+
+Result<std::optional<RawBody>> Transcoder::raw_body(std::string_view method,
+                                                    std::string_view response) const {
+  const pb::MethodDescriptor* called = impl_->method(method);
+  if (called == nullptr || !called->options().HasExtension(v1::raw_answer)) return std::nullopt;
+  const v1::RawAnswer& raw = called->options().GetExtension(v1::raw_answer);
+  const auto* field = called->output_type()->FindFieldByName(raw.field());
+  const MessagePtr message = parsed(*called->output_type(), response);
+  if (message == nullptr || field == nullptr || field->type() != pb::FieldDescriptor::TYPE_BYTES) {
+    return fail(Code::kInternal, called->full_name() + ": the response cannot be sent as bytes");
+  }
+  RawBody out{raw.media_type(), message->GetReflection()->GetString(*message, field)};
+  if (!raw.with_other_fields()) return out;
+  message->GetReflection()->ClearField(message.get(), field);
+  HP_ASSIGN_OR_RETURN(std::string line, write_json(*message));
+  constexpr std::size_t kAligned = 8;
+  line.resize((line.size() + kAligned) / kAligned * kAligned - 1, ' ');
+  out.bytes.insert(0, line + "\n");
+  return out;
 }
 
 std::string Transcoder::event_id(std::string_view method, std::string_view response) const {

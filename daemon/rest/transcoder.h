@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,12 @@ struct Call {
   bool streams = false;       ///< the response is a stream of messages
   std::string request;        ///< the request message, serialised
   bool stops_motion = false;  ///< the call is completed even if the client disconnects
+};
+
+/// The bytes of a response that is not JSON.
+struct RawBody {
+  std::string media_type;
+  std::string bytes;
 };
 
 /// Translates HTTP requests to calls of the gRPC API, and responses to JSON. Follows the
@@ -62,6 +69,11 @@ class Transcoder {
   /// Converts a response to JSON (proto/write_json.h). Returns kInternal for an unknown method or a
   /// response of another type.
   [[nodiscard]] Result<std::string> write(std::string_view method, std::string_view response) const;
+
+  /// Returns the body of a response that is not JSON (raw_answer in access.proto); nullopt for all
+  /// others. Returns kInternal for a response of another type.
+  [[nodiscard]] Result<std::optional<RawBody>> raw_body(std::string_view method,
+                                                        std::string_view response) const;
 
   /// Returns a message's `seq` as text, for a stream whose messages have a number `seq` and whose
   /// request has `after_seq`. Empty for other streams, and if an optional `seq` is not set.

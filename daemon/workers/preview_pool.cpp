@@ -37,10 +37,11 @@ std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame fram
   if (json_unsigned(head, "id") != static_cast<std::uint64_t>(id)) return {};
   const auto& error = json_at(head, "error");
   if (error.is_null()) return frame;
+  const bool is_input = json_string(error, "reason") == "INPUT_REFUSED";
   return fail(
       Code::kInvalidArgument,
       json_string(error, "message").value_or("the worker refused the request without a message"),
-      "PREVIEW_REFUSED");
+      is_input ? "INPUT_REFUSED" : "PREVIEW_REFUSED");
 }
 
 }  // namespace
@@ -50,13 +51,12 @@ struct PreviewPool::Call {
   PreviewRequest ask;
   bool sent = false;
   SteadyTime deadline;
-  std::optional<Result<PreviewResult>> result;
+  std::optional<Result<PreviewFrame>> result;
 };
 
 struct PreviewPool::Slot {
   std::unique_ptr<PreviewWorker> worker;
-  std::shared_ptr<const PreviewFrame> mesh;  // null until the worker has sent it
-  std::shared_ptr<Call> call;                // the waiting call, if any
+  std::shared_ptr<Call> call;  // the waiting call, if any
   SteadyTime used;
 };
 
@@ -85,8 +85,8 @@ void PreviewPool::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-Result<PreviewResult> PreviewPool::compute(const std::string& owner, const PreviewRequest& ask,
-                                           const std::function<bool()>& gone) {
+Result<PreviewFrame> PreviewPool::compute(const std::string& owner, const PreviewRequest& ask,
+                                          const std::function<bool()>& gone) {
   std::unique_lock lock(mutex_);
   HP_ASSIGN_OR_RETURN(const std::shared_ptr<Call> call, place(owner, ask));
   ::eventfd_write(wake_.get(), 1);
@@ -172,10 +172,9 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
     if (slot.call) finish(slot, tl::unexpected(*failure));
     slot.worker = nullptr;
   } else if (slot.call && now > slot.call->deadline) {
-    finish(slot,
-           fail(Code::kResourceExhausted,
-                "the preview took longer than 30 s; simplify the mesh, or submit a job instead",
-                "TIME_LIMIT"));
+    finish(slot, fail(Code::kResourceExhausted,
+                      "it took longer than 30 s; simplify the mesh, or submit a job instead",
+                      "TIME_LIMIT"));
     slot.worker = nullptr;
   }
 }
@@ -185,7 +184,6 @@ void PreviewPool::begin(Slot& slot) {
   Call& call = *slot.call;
   call.sent = true;
   if (!slot.worker || slot.worker->key() != call.ask.key) {
-    slot.mesh = nullptr;
     slot.worker = nullptr;
     auto started = PreviewWorker::start(call.ask, call.id, options_.program, options_.limits,
                                         options_.threads, sandbox_, layout_);
@@ -197,19 +195,14 @@ void PreviewPool::begin(Slot& slot) {
 }
 
 void PreviewPool::take(Slot& slot, PreviewFrame frame) {
-  if (!slot.mesh) {
-    slot.mesh = std::make_shared<const PreviewFrame>(std::move(frame));
-    return;
-  }
   if (!slot.call) return;
   auto answer = answer_to(slot.call->id, std::move(frame));
   if (!answer) return;  // answer to a call that has ended
   slot.used = SteadyClock::now();
-  if (!*answer) return finish(slot, tl::unexpected(answer->error()));
-  finish(slot, PreviewResult{slot.mesh, std::move(**answer)});
+  finish(slot, std::move(*answer));
 }
 
-void PreviewPool::finish(Slot& slot, Result<PreviewResult> result) {
+void PreviewPool::finish(Slot& slot, Result<PreviewFrame> result) {
   slot.call->result = std::move(result);
   slot.call = nullptr;
   answered_.notify_all();

@@ -20,14 +20,9 @@ struct PreviewOptions {
   Limits limits;
 };
 
-/// A preview, with the mesh that it refers to.
-struct PreviewResult {
-  std::shared_ptr<const PreviewFrame> mesh;
-  PreviewFrame dip;
-};
-
-/// Computes previews of dips while users rotate an object. Each user has a worker that keeps the
-/// mesh in memory as long as requests arrive. A new call ends the user's previous call.
+/// Reads models, and computes previews of dips while users rotate an object. Each user has a worker
+/// that keeps the mesh in memory as long as requests arrive. A new call ends the user's previous
+/// call.
 class PreviewPool {
  public:
   /// @return kFailedPrecondition if workers cannot be confined
@@ -37,12 +32,12 @@ class PreviewPool {
   PreviewPool(const PreviewPool&) = delete;
   PreviewPool& operator=(const PreviewPool&) = delete;
 
-  /// Computes a preview and waits for it.
+  /// Has a worker answer a request, and waits for the answer.
   /// @param gone  called repeatedly; returns whether the client has disconnected
   /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
   ///         MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; errors of the worker
-  [[nodiscard]] Result<PreviewResult> compute(const std::string& owner, const PreviewRequest& ask,
-                                              const std::function<bool()>& gone);
+  [[nodiscard]] Result<PreviewFrame> compute(const std::string& owner, const PreviewRequest& ask,
+                                             const std::function<bool()>& gone);
   /// Ends all workers; waiting calls return an error.
   void stop();
 
@@ -60,7 +55,7 @@ class PreviewPool {
   void begin(Slot& slot);
   void take(Slot& slot, PreviewFrame frame);
   void wait(std::unique_lock<std::mutex>& lock);
-  void finish(Slot& slot, Result<PreviewResult> result);
+  void finish(Slot& slot, Result<PreviewFrame> result);
 
   PreviewOptions options_;
   Layout layout_;

@@ -39,6 +39,16 @@ Result<NewJob> check(const v1::SimulateSpec& spec) {
   return check_job(job);
 }
 
+/// Returns a request for this object, without a dip.
+Result<PreviewRequest> request_for(const v1::SimulateSpec& object) {
+  HP_ASSIGN_OR_RETURN(const NewJob of_object, check(object));
+  PreviewRequest ask;
+  ask.key = deterministic_bytes(object);
+  ask.spec = of_object.work.spec;
+  ask.inputs = of_object.work.inputs;
+  return ask;
+}
+
 /// Returns the members of a JSON object, without braces, with the proto field names.
 Result<std::string> keys_of(const v1::SimulateSpec& dip) {
   google::protobuf::util::JsonPrintOptions options;
@@ -52,16 +62,23 @@ Result<std::string> keys_of(const v1::SimulateSpec& dip) {
 
 }  // namespace
 
+Result<PreviewRequest> check_read(const v1::ReadModelRequest& request) {
+  const v1::InspectSpec& spec = request.inspect();
+  v1::SimulateSpec object;
+  if (spec.has_mesh()) *object.mutable_mesh() = spec.mesh();
+  *object.mutable_extra_files() = spec.extra_files();
+  if (spec.has_scale()) object.set_scale(spec.scale());
+  HP_ASSIGN_OR_RETURN(PreviewRequest ask, request_for(object));
+  ask.dip = spec.shape_only() ? R"("read":true,"shape_only":true)" : R"("read":true)";
+  return ask;
+}
+
 Result<PreviewRequest> check_preview(const v1::ComputePreviewRequest& request) {
   const v1::SimulateSpec object = object_of(request.simulate()), dip = dip_of(request.simulate());
   v1::SimulateSpec both = object;
   both.MergeFrom(dip);
   HP_RETURN_IF_ERROR(check(both));
-  HP_ASSIGN_OR_RETURN(const NewJob of_object, check(object));
-  PreviewRequest ask;
-  ask.key = deterministic_bytes(object);
-  ask.spec = of_object.work.spec;
-  ask.inputs = of_object.work.inputs;
+  HP_ASSIGN_OR_RETURN(PreviewRequest ask, request_for(object));
   HP_ASSIGN_OR_RETURN(ask.dip, keys_of(dip));
   return ask;
 }

@@ -17,8 +17,8 @@ namespace hydroprint::daemon {
 /// One response of `hydroprint-worker preview`.
 using PreviewFrame = FramedMessage;
 
-/// A confined worker that keeps a mesh in memory and responds to requests. Its first response is
-/// the mesh itself. Use it only on the thread that started it.
+/// A confined worker that keeps a mesh in memory and responds to requests. Use it only on the
+/// thread that started it.
 class PreviewWorker {
  public:
   /// @param number  number in the name of the worker's folder, which the destructor deletes

@@ -26,19 +26,6 @@ bool is_small(const std::filesystem::path& file) {
   return !unknown && bytes <= kSmallModel_bytes;
 }
 
-/// Returns an error for a model whose faces would be white because the files that define their
-/// colours are missing.
-Status check_materials(const mesh::Model& model) {
-  for (const Warning& warning : model.warnings) {
-    if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
-    return fail(
-        Code::kNotFound,
-        warning.where + ": " + warning.message +
-            ". Put the complete material file into the model's folder, or specify a picture");
-  }
-  return {};
-}
-
 /// Reads the model and, if images are needed, loads the image libraries. That takes as long as
 /// reading most models, so it happens at the same time. Before a large model, the libraries are
 /// loaded first, because they end the program if there is no memory for them. The calling thread
@@ -118,6 +105,17 @@ Result<image::LayeredPaint> read_paint(const mesh::Model& model, const image::Pa
   return fail(Code::kInvalidArgument,
               "the paint is plain white, so the film would stay blank. Give it a picture or a "
               "colour");
+}
+
+Status check_materials(const mesh::Model& model) {
+  for (const Warning& warning : model.warnings) {
+    if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
+    return fail(
+        Code::kNotFound,
+        warning.where + ": " + warning.message +
+            ". Put the complete material file into the model's folder, or specify a picture");
+  }
+  return {};
 }
 
 Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context) {

@@ -28,9 +28,12 @@ struct ModelInput {
 [[nodiscard]] bool needs_own_colours(const image::PaintSource& paint);
 
 /// Reads a model and, if pictures will be needed, loads the image libraries at the same time.
-/// Returns the errors of mesh::read_model(). If no picture is given, also returns kNotFound for a
-/// model whose material file or material is missing.
+/// Returns the errors of mesh::read_model(), and if no picture is given those of check_materials().
 [[nodiscard]] Result<mesh::Model> read_inputs(const ModelInput& input, const Context& context);
+
+/// Returns kNotFound for a model whose faces would be white because its material file, or a
+/// material in it, is missing.
+[[nodiscard]] Status check_materials(const mesh::Model& model);
 
 /// Loads a model's paint for a film image. Returns the errors of image::load_layers(), and
 /// kInvalidArgument for a paint or model without any colour that was understood, because the film

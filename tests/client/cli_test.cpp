@@ -681,6 +681,19 @@ TEST_F(Cli, PreviewRespondsWithoutAJob) {
   EXPECT_TRUE(client_json({"list"}).at("jobs").empty());
 }
 
+TEST_F(Cli, InspectShowsWhatAModelIs) {
+  start();
+  const Outcome shown =
+      client({"inspect", mesh("a"), "--glb", (folder_.path() / "shown.glb").string()});
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  EXPECT_NE(shown.out.find("OBJ"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.err.find("warning: m (w)"), std::string::npos) << shown.err;
+  EXPECT_TRUE(content(folder_.path() / "shown.glb").starts_with("glTF"));
+  EXPECT_EQ(client_json({"inspect", mesh("a")}).at("shownTriangles"), 3);
+  expect_error({"inspect", mesh("plain")}, 3, "m.png");
+  expect_error({"inspect", mesh("a"), mesh("a"), "--glb", "both.glb"}, 3, "single model");
+}
+
 TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   start();
   submit("sleep 0");

@@ -12,7 +12,7 @@ import { ballGlb, makeBall, stripes } from './models';
 import { imageIn } from './pdf';
 import { rareTest, usePlace } from './place';
 import { startProxy } from './proxy';
-import { ball } from './solids';
+import { ball, fineRing } from './solids';
 
 const there = usePlace(({ daemon }) => addPeople(daemon.address));
 
@@ -306,6 +306,20 @@ rareTest('while the object is turned, a preview shows coverage, stretch and warn
     .getByText(/beside the film|misses the film|does not meet/)
     .first()
     .waitFor();
+  expect(person.complaints).toEqual([]);
+});
+
+rareTest('a mesh of 1,000,000 triangles previews', async () => {
+  const person = await come(there, 'mia');
+  const { page } = person;
+  const stl = join(mkdtempSync(join(there.daemon.folder, 'ring-')), 'ring.stl');
+  writeFileSync(stl, fineRing());
+  await page.locator('input[type=file]').first().setInputFiles(stl);
+  const panel = page.getByRole('region', { name: 'Preview' });
+  await panel.waitFor({ timeout: 120_000 });
+  expect(Number(/Coverage\s*([\d.]+) %/.exec(await panel.innerText())?.[1])).toBeGreaterThan(50);
+  await page.getByRole('radio', { name: 'Stretch' }).check();
+  await look(person, 'new-print-fine-mesh');
   expect(person.complaints).toEqual([]);
 });
 

@@ -34,6 +34,26 @@ function tubeOf(rings: Point[][]): Triangle[] {
   return [...walls, ...lid(rings.at(-1)!), ...lid([first!, ...others.reverse()])];
 }
 
+/** A ring with ripples, 162 mm wide, of 1,000,000 triangles: 50 MB. */
+export function fineRing(): Buffer {
+  const [around, across] = [1000, 500];
+  const points = Array.from({ length: around * across }, (_, i): Point => {
+    const [a, b] = [
+      (2 * Math.PI * Math.floor(i / across)) / around,
+      (2 * Math.PI * (i % across)) / across,
+    ];
+    const tube = 20 + 2 * Math.sin(8 * a) * Math.cos(5 * b);
+    const out = 60 + tube * Math.cos(b);
+    return [out * Math.cos(a), out * Math.sin(a), tube * Math.sin(b)];
+  });
+  const at = (i: number, j: number) => points[(i % around) * across + (j % across)]!;
+  const triangles: Triangle[] = [];
+  for (let i = 0; i < around; i += 1)
+    for (let j = 0; j < across; j += 1)
+      triangles.push(...square(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)));
+  return stlOf(triangles);
+}
+
 /** An L of 50 x 30 x 40 mm with legs of 12 mm. */
 export function bracket(): Buffer {
   // The inner corner is first, because all others are seen from it.

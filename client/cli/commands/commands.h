@@ -32,6 +32,7 @@ void add_calibrate_camera(CLI::App& app, Program& program);
 void add_calibrations(CLI::App& app, Program& program);
 void add_loop(CLI::App& app, Program& program);
 void add_preview(CLI::App& app, Program& program);
+void add_inspect(CLI::App& app, Program& program);
 void add_plan(CLI::App& app, Program& program);
 void add_print(CLI::App& app, Program& program);
 void add_dip(CLI::App& app, Program& program);

@@ -228,6 +228,15 @@ class Document {
 
   Json answer_of(const pb::MethodDescriptor& method) {
     Json schema = schemas_.reference(*method.output_type(), Way::kAnswered);
+    if (method.options().HasExtension(v1::raw_answer)) {
+      const v1::RawAnswer& raw = method.options().GetExtension(v1::raw_answer);
+      const std::string before =
+          raw.with_other_fields()
+              ? " as JSON on a line with a multiple of 8 bytes, then the bytes of `"
+              : ": the bytes of `";
+      return {{"description", method.output_type()->name() + before + raw.field() + "`."},
+              {"content", content(raw.media_type())}};
+    }
     if (!method.server_streaming()) {
       return {{"description", "Done."},
               {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};

@@ -138,6 +138,11 @@ class PaintLoader {
     return finish();
   }
 
+  Paint load_nothing() {
+    paint_.inks_ = {Ink{}};
+    return finish();
+  }
+
  private:
   using Ink = Paint::Ink;
   struct Pending {
@@ -422,5 +427,7 @@ Result<Paint> load_paint(const mesh::Model& model,
 Paint load_surface_colours(const mesh::Model& model) {
   return PaintLoader(model, Context{}).load_surface();
 }
+
+Paint blank_paint(const mesh::Model& model) { return PaintLoader(model, Context{}).load_nothing(); }
 
 }  // namespace hydroprint::image

@@ -48,6 +48,14 @@ class Brush {
 /// The desired look of the object: a colour for every point of its surface.
 class Paint {
  public:
+  /// The colour of a triangle as a product in linear light; several triangles may share one.
+  struct Ink {
+    bool is_known = false;                             ///< false: nothing defines the colour
+    Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear
+    int texture = -1;                                  ///< index into textures(); -1: none
+    bool of_surface = false;  ///< one factor is the colour of the vertices, or of the triangle
+  };
+
   /// False if the film would stay white everywhere: the model defines no colours, or only plain
   /// white without a texture.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
@@ -55,6 +63,24 @@ class Paint {
   /// have no coordinates.
   [[nodiscard]] bool shows_white() const { return shows_white_; }
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+
+  /// Returns the parts of a triangle's colour.
+  [[nodiscard]] const Ink& ink(std::size_t model_triangle) const {
+    return inks_[ink_of_triangle_[model_triangle]];
+  }
+  /// Returns a number that triangles have in common if and only if they have the same ink().
+  [[nodiscard]] int ink_index(std::size_t model_triangle) const {
+    return ink_of_triangle_[model_triangle];
+  }
+  [[nodiscard]] const std::vector<Texture>& textures() const { return textures_; }
+  /// The colours of the surface, linear: of the model's vertices, or else of its triangles. Empty
+  /// if no ink uses them.
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& vertex_colours() const {
+    return vertex_colours_;
+  }
+  [[nodiscard]] const std::vector<Eigen::Vector3f>& triangle_colours() const {
+    return triangle_colours_;
+  }
 
   /// @param model_triangle  index into Model::triangles
   /// @param at           three points of that triangle on the sample grid (sample (i, j) at (i +
@@ -65,14 +91,6 @@ class Paint {
 
  private:
   friend class PaintLoader;
-  /// The colour of a triangle as a product in linear light; several triangles may share one.
-  struct Ink {
-    bool is_known = false;                             ///< false: nothing defines the colour
-    Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear
-    int texture = -1;                                  ///< -1: none
-    bool of_surface = false;  ///< one factor is the colour of the vertices, or of the triangle
-  };
-
   /// Multiplies the brush's colour with that of the surface.
   void tint(int model_triangle, const Corners& at,
             const std::array<Eigen::Vector3d, 3>& barycentric, Brush& brush) const;
@@ -106,5 +124,8 @@ struct TextureUse {
 
 /// Takes only the colours of the model's vertices, otherwise those of its triangles.
 [[nodiscard]] Paint load_surface_colours(const mesh::Model& model);
+
+/// Returns a paint without any colour.
+[[nodiscard]] Paint blank_paint(const mesh::Model& model);
 
 }  // namespace hydroprint::image

@@ -62,6 +62,10 @@ class Texture {
 
   [[nodiscard]] int width() const { return levels_[0].width; }
   [[nodiscard]] int height() const { return levels_[0].height; }
+  /// The images, each half as large as the one before (rounded up), down to one texel.
+  [[nodiscard]] const std::vector<Texels>& levels() const { return levels_; }
+  /// The continuation beyond the edges, for u and v.
+  [[nodiscard]] const std::array<mesh::Wrap, 2>& wrap() const { return wrap_; }
 
  private:
   struct Sum {

@@ -36,6 +36,11 @@ Result<std::string> ArtifactTask::report_text(const Report& report) const {
   return report_json(verb_, findings(report), report);
 }
 
+Result<std::string> ArtifactTask::json_summary(const Report& report,
+                                               const std::filesystem::path& dir) const {
+  return summary_json(dir, figures(), report);
+}
+
 Status ArtifactTask::write_all(OutFolder& folder, Report& report, Progress& progress,
                                const Context& context) {
   context.progress("inputs", 0);
@@ -68,11 +73,12 @@ Result<Finished> ArtifactTask::run(const RunOptions& options, Termination& termi
       return tl::unexpected(std::move(status).error());
     }
   }
+  HP_ASSIGN_OR_RETURN(std::string text, options.json
+                                            ? json_summary(report, folder.dir())
+                                            : Result<std::string>(summary(report, folder.dir())));
   termination.decide();
   HP_RETURN_IF_ERROR(folder.commit());
-  return Finished{
-      options.json ? summary_json(folder.dir(), figures(), report) : summary(report, folder.dir()),
-      report.warnings};
+  return Finished{std::move(text), report.warnings};
 }
 
 }  // namespace hydroprint::worker

@@ -41,6 +41,9 @@ class ArtifactTask : public Task {
   [[nodiscard]] virtual Result<std::string> report_text(const Report& report) const;
   /// Returns the figures of the summary for `--json`. Called after compute().
   [[nodiscard]] virtual Json figures() const = 0;
+  /// Returns the summary for `--json`; by default summary_json() of figures().
+  [[nodiscard]] virtual Result<std::string> json_summary(const Report& report,
+                                                         const std::filesystem::path& dir) const;
   /// Returns the summary as text; each line ends with a newline. Called after compute().
   [[nodiscard]] virtual std::string summary(const Report& report,
                                             const std::filesystem::path& dir) const = 0;

@@ -1,12 +1,10 @@
 #include "sim/worker/verbs/plan_report.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cctype>
 #include <string>
 
 #include "hydroprint/v1/report.pb.h"
-#include "sim/base/utf8.h"
+#include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -17,14 +15,6 @@ void set_pose(const Pose& X_FO, v1::Pose& out) {
   for (const double x : {q.w(), q.x(), q.y(), q.z()}) out.add_rotation_wxyz(x);
   out.clear_translation_mm();
   for (const double x : X_FO.translation()) out.add_translation_mm(x);
-}
-
-/// Returns the code of the .proto file for a code in snake_case.
-v1::ReportWarning::Code code_of(std::string code) {
-  for (char& c : code) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  v1::ReportWarning::Code out = v1::ReportWarning::CODE_UNSPECIFIED;
-  (void)v1::ReportWarning::Code_Parse(code, &out);
-  return out;
 }
 
 void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch,
@@ -60,9 +50,6 @@ void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>&
     set_stretch(stretch_of(plan, prints, static_cast<int>(k) + 1), *dip.mutable_stretch());
   }
 }
-
-/// JSON must be UTF-8, but file names may contain other bytes.
-std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
 
 }  // namespace
 
@@ -101,12 +88,7 @@ void set_run(const Report& report, v1::PlanReport& out) {
     (*out.mutable_stage_seconds())[stage] = seconds;
   out.set_total_seconds(report.total_s);
   out.set_peak_memory_bytes(static_cast<double>(peak_memory_bytes()));
-  for (const Warning& warning : report.warnings) {
-    v1::ReportWarning& added = *out.add_warnings();
-    added.set_code(code_of(warning.code));
-    added.set_message(utf8(warning.message));
-    added.set_where(utf8(warning.where));
-  }
+  for (const Warning& warning : report.warnings) set_warning(warning, *out.add_warnings());
   for (const std::string& name : report.artifacts) out.add_artifacts(name);
 }
 

@@ -8,13 +8,16 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/write_json.h"
 #include "sim/base/checked_json.h"
 #include "sim/base/pose_file.h"
+#include "sim/display/display_model.h"
 #include "sim/film/outline.h"
 #include "sim/mesh/read/read_model.h"
 #include "sim/pipeline/dip.h"
@@ -22,6 +25,7 @@
 #include "sim/worker/common/dip.h"
 #include "sim/worker/common/report_values.h"
 #include "sim/worker/common/task.h"
+#include "sim/worker/inspection/inspection.h"
 #include "sim/worker/verbs/preview_requests.h"
 
 namespace hydroprint::worker {
@@ -30,9 +34,9 @@ namespace {
 constexpr const char* kExamples =
     R"(For programs: reads the model once, and then one request per line from stdin, such as
   {"id": 7, "pose": {"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0]}, "film": "A3"}
-Each answer on stdout is a line of JSON, followed by binary data whose length is its "bytes" (four floats per vertex:
-film_x, film_y, contact_time, stretch). It is a rough result, computed in a fraction of a second. The first answer is the
-model itself. A newer request cancels the current one. sim/worker/verbs/preview.h describes the protocol.
+Each answer on stdout is a line of JSON, followed by binary data whose length is its "bytes" (four floats per place:
+film_x, film_y, contact_time, stretch). It is a rough result, computed in a fraction of a second. {"id": 8, "read": true}
+asks for the model itself. A newer request cancels the current one. sim/worker/verbs/preview.h describes the protocol.
 
 Example:
   echo '{"id": 1}' | hydroprint-worker preview --mesh ball.ply | head -n 1
@@ -71,24 +75,13 @@ Error superseded() {
   return {Code::kCancelled, "a newer request replaced this one", "SUPERSEDED", {}};
 }
 
+Status answer_failure(std::int64_t id, const Error& error) {
+  return answer_error(id, error.code == Code::kCancelled ? superseded() : error);
+}
+
 template <class Value>
 void put(std::string& bytes, Value value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
-
-Status answer_model(const mesh::Model& model) {
-  std::string bytes;
-  bytes.reserve(12 * (model.vertices.size() + model.triangles.size()));
-  for (const Eigen::Vector3d& vertex : model.vertices) {
-    for (const double coordinate : vertex) put(bytes, static_cast<float>(coordinate));
-  }
-  for (const Eigen::Vector3i& triangle : model.triangles) {
-    for (const int corner : triangle) put(bytes, static_cast<std::uint32_t>(corner));
-  }
-  return answer({{"vertices", model.vertices.size()},
-                 {"triangles", model.triangles.size()},
-                 {"warnings", warnings_json(model.warnings)}},
-                bytes);
 }
 
 /// Returns `value` if it is a number from `least` to `most`; otherwise an error that names `key`.
@@ -103,6 +96,8 @@ Result<double> read_number(const nlohmann::json& value, const std::string& key, 
 
 struct Request {
   std::int64_t id = -1;
+  bool reads = false;  ///< asks for the model instead of a dip
+  bool shape_only = false;
   pipeline::DipOptions dip;
 };
 
@@ -116,6 +111,10 @@ Status take(Request& request, const std::string& key, const nlohmann::json& valu
     HP_ASSIGN_OR_RETURN(request.dip.depth_mm, read_number(value, key, 1e-3, 1e4));
   } else if (key == "dip_speed_mm_per_s") {
     HP_ASSIGN_OR_RETURN(request.dip.dip_speed_mm_per_s, read_number(value, key, 1e-3, 1000));
+  } else if (key == "read" && value.is_boolean()) {
+    request.reads = value.get<bool>();
+  } else if (key == "shape_only" && value.is_boolean()) {
+    request.shape_only = value.get<bool>();
   } else if (key != "id") {
     return fail(Code::kInvalidArgument,
                 key + ": unknown key, or a value of the wrong type. See --help");
@@ -142,10 +141,11 @@ Status read_request(const std::string& line, const pipeline::DipOptions& otherwi
   return {};
 }
 
-std::string map_bytes(const flow::SurfaceMap& map) {
+/// @param places  number of places that are shown
+std::string map_bytes(const flow::SurfaceMap& map, std::size_t places) {
   std::string bytes;
-  bytes.reserve(16 * map.film_mm.size());
-  for (std::size_t i = 0; i < map.film_mm.size(); ++i) {
+  bytes.reserve(16 * places);
+  for (std::size_t i = 0; i < places; ++i) {
     put(bytes, static_cast<float>(map.film_mm[i].x()));
     put(bytes, static_cast<float>(map.film_mm[i].y()));
     put(bytes, static_cast<float>(map.contact_time_s[i]));
@@ -154,7 +154,7 @@ std::string map_bytes(const flow::SurfaceMap& map) {
   return bytes;
 }
 
-Status answer_dip(std::int64_t id, const pipeline::Dip& dip, double seconds) {
+Status answer_dip(std::int64_t id, const pipeline::Dip& dip, std::size_t places, double seconds) {
   const pipeline::DipFigures& f = dip.figures;
   return answer({{"id", id},
                  {"pose", pose_json(dip.X_FO)},
@@ -164,7 +164,19 @@ Status answer_dip(std::int64_t id, const pipeline::Dip& dip, double seconds) {
                  {"stretch", stretch_json(f)},
                  {"seconds", seconds},
                  {"warnings", warnings_json(dip.warnings)}},
-                map_bytes(dip.map.surface));
+                map_bytes(dip.map.surface, places));
+}
+
+/// Answers with the model for display.
+Status answer_display(const Request& request, const mesh::Model& model, const Context& context) {
+  const auto shown = inspect_model(model, request.shape_only, context);
+  if (!shown) {
+    Error error = shown.error();
+    if (error.code != Code::kCancelled) error.reason = "INPUT_REFUSED";
+    return answer_failure(request.id, error);
+  }
+  HP_ASSIGN_OR_RETURN(const std::string summary, json_file_of(shown->summary));
+  return answer({{"id", request.id}, {"summary", Json::parse(summary)}}, shown->glb);
 }
 
 double seconds_now() {
@@ -172,18 +184,51 @@ double seconds_now() {
   return std::chrono::duration<double>(now).count();
 }
 
-/// Answers one request. Fails only if the answer cannot be written.
-Status serve(const std::string& line, const mesh::Model& model,
-             const pipeline::DipOptions& otherwise, const Context& context) {
-  Request request;
-  if (const Status read = read_request(line, otherwise, request); !read) {
-    return answer_error(request.id, read.error());
+/// The model of the session, and its surfaces for dips once they are needed.
+class Object {
+ public:
+  explicit Object(mesh::Model model) : model_(std::move(model)) {}
+
+  [[nodiscard]] const mesh::Model& model() const { return model_; }
+  /// Makes the surfaces unless they exist. A newer request does not end this, because it needs them
+  /// too.
+  Status prepare(const Context& context) {
+    if (surfaces_) return {};
+    HP_ASSIGN_OR_RETURN(const mesh::Model shape, display::shown_shape(model_, context));
+    HP_ASSIGN_OR_RETURN(surfaces_, pipeline::make_preview_surfaces(model_, shape, context));
+    places_ = shape.vertices.size();
+    return {};
   }
+  /// After prepare().
+  [[nodiscard]] const pipeline::PreviewSurfaces& surfaces() const { return *surfaces_; }
+  [[nodiscard]] std::size_t places() const { return places_; }
+
+ private:
+  mesh::Model model_;
+  std::optional<pipeline::PreviewSurfaces> surfaces_;
+  std::size_t places_ = 0;
+};
+
+/// What ends a session, and what ends a computation.
+struct Contexts {
+  Context session;  ///< cancelled when the program must end
+  Context request;  ///< cancelled also by a newer request
+};
+
+/// Answers one request. Fails only if the answer cannot be written.
+Status serve(const std::string& line, Object& object, const pipeline::DipOptions& otherwise,
+             const Contexts& contexts) {
+  Request request;
+  if (const Status read = read_request(line, otherwise, request); !read)
+    return answer_error(request.id, read.error());
+  if (request.reads) return answer_display(request, object.model(), contexts.request);
   const double begin_s = seconds_now();
-  const auto dip = pipeline::dip(model, pipeline::preview_of(request.dip), context);
-  if (dip) return answer_dip(request.id, *dip, seconds_now() - begin_s);
-  const bool is_cancelled = dip.error().code == Code::kCancelled;
-  return answer_error(request.id, is_cancelled ? superseded() : dip.error());
+  if (const Status ready = object.prepare(contexts.session); !ready)
+    return answer_failure(request.id, ready.error());
+  const auto dip =
+      pipeline::preview_dip(object.model(), object.surfaces(), request.dip, contexts.request);
+  if (!dip) return answer_failure(request.id, dip.error());
+  return answer_dip(request.id, *dip, object.places(), seconds_now() - begin_s);
 }
 
 class Preview final : public Task {
@@ -202,19 +247,22 @@ Result<Finished> Preview::run(const RunOptions& options, Termination& terminatio
                               int /*stderr_fd*/) {
   const auto ended = [&termination] { return termination.requested(); };
   HP_ASSIGN_OR_RETURN(const pipeline::DipOptions otherwise, read_dip(options_));
-  HP_ASSIGN_OR_RETURN(const mesh::Model model,
-                      mesh::read_model(options_.object.mesh, options_.object.scale,
-                                       {options.threads, nullptr, ended}));
-  HP_RETURN_IF_ERROR(answer_model(model));
+  const Context session{options.threads, nullptr, ended};
+  HP_ASSIGN_OR_RETURN(mesh::Model model,
+                      mesh::read_model(options_.object.mesh, options_.object.scale, session));
+  Object object(std::move(model));
   PreviewRequests requests(STDIN_FILENO);
-  const Context context{options.threads, nullptr, [&] { return ended() || requests.has_newer(); }};
+  const Contexts contexts{
+      session, {options.threads, nullptr, [&] { return ended() || requests.has_newer(); }}};
   while (const auto next = requests.next(ended)) {
     for (const std::string& line : next->passed_over) {
       Request request;
       const Status read = read_request(line, otherwise, request);
       HP_RETURN_IF_ERROR(answer_error(request.id, read ? superseded() : read.error()));
     }
-    HP_RETURN_IF_ERROR(serve(next->line, model, otherwise, context));
+    HP_RETURN_IF_ERROR(serve(next->line, object, otherwise, contexts));
+    // A reader of the model will soon ask for dips. Their requests report errors.
+    if (!requests.has_newer()) (void)object.prepare(session);
   }
   HP_RETURN_IF_ERROR(check_cancelled({1, nullptr, ended}));
   return Finished{};

@@ -13,15 +13,16 @@ namespace hydroprint::worker {
 ///    "depth_mm": 30, "dip_speed_mm_per_s": 5}
 /// Only `id` (a whole number) is required; the other keys default to the command line's values.
 /// Each answer on stdout is a JSON object on a line, followed by `bytes` bytes of little-endian
-/// data. The first answer is the model:
-///   {"vertices", "triangles", "bytes", "warnings"}: a float x, y, z (frame O, mm) for each vertex,
-///   then three uint32 for each triangle
-/// Each request is answered by
+/// data. Each request is answered by
 ///   {"id", "bytes", "pose", "depth_mm", "coverage", "theta_clamped_share", "stretch", "seconds",
-///    "warnings"}: for each vertex four floats, film_x, film_y, contact_time, stretch, as in
-///   surface_map.ply: NaN where no film arrives
+///    "warnings"}: for each place of the model that is shown (display::shown_shape()) four floats,
+///   film_x, film_y, contact_time, stretch, as in surface_map.ply: NaN where no film arrives
 /// or by {"id", "bytes": 0, "error": {"code", "reason", "message"}}, with the reason SUPERSEDED if
-/// a newer request came before this one was done. `id` is -1 for a line that is not a request.
+/// a newer request came before this one was done, and INPUT_REFUSED if the model's colours cannot
+/// be read. The request {"id": 7, "read": true} (and "shape_only": true, as in InspectSpec) is
+/// answered by the model for display, with the binary glTF of inspect_model() as bytes:
+///   {"id", "bytes", "summary"}, the latter a v1::ModelSummary
+/// `id` is -1 for a line that is not a request.
 /// The program ends at the end of stdin.
 [[nodiscard]] Verb preview_verb();
 

@@ -221,7 +221,6 @@ void answer(const std::string& head, const std::string& bytes) {
 void preview() {
   std::stringstream mesh;
   mesh << std::ifstream(file_of("mesh")).rdbuf();
-  answer(R"({"vertices":1,"triangles":0,"warnings":[])", std::string(12, 'v'));
   for (std::string line; std::getline(std::cin, line);) {
     if (mesh.str().find("mute") != std::string::npos) {
       std::ofstream(std::filesystem::path(flags["--spec"]).replace_filename("asked"));
@@ -229,6 +228,18 @@ void preview() {
     }
     if (mesh.str().find("rubbish") != std::string::npos) std::cout << std::string(300000, '[');
     if (mesh.str().find("end") != std::string::npos) std::_Exit(4);
+    if (line.find("\"read\":true") != std::string::npos) {
+      const std::string head = line.substr(0, line.size() - 1);
+      if (mesh.str().find("plain") != std::string::npos) {
+        answer(head + R"(,"error":{"code":"NOT_FOUND","reason":"INPUT_REFUSED","message":"m.png"})",
+               "");
+      } else {
+        answer(head + R"(,"summary":{"format":"OBJ","shown_triangles":3,)"
+                      R"("warnings":[{"code":"FAR_FROM_ORIGIN","message":"m","where":"w"}]})",
+               "glTF" + std::to_string(getpid()));
+      }
+      continue;
+    }
     answer(line.substr(0, line.size() - 1) +
                R"(,"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[0,0,0]},"coverage":0.5,)"
                R"("theta_clamped_share":null,"stretch":{"p50":1,"p95":2,"max":null},"seconds":0.1,)"

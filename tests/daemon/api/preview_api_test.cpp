@@ -26,8 +26,7 @@ class Previews : public ::testing::Test {
     client = std::make_unique<Client>(daemon->address());
   }
   /// Requests a preview. The fake worker reports its pid as the depth.
-  grpc::Status preview(const std::string& mesh, v1::Preview& out, bool with_mesh = false,
-                       const std::string& owner = "") {
+  grpc::Status preview(const std::string& mesh, v1::Preview& out, const std::string& owner = "") {
     Client caller(daemon->address(), owner);
     v1::ComputePreviewRequest request;
     v1::SimulateSpec& spec = *request.mutable_simulate();
@@ -36,9 +35,16 @@ class Previews : public ::testing::Test {
     spec.set_film("100x100");
     for (const double x : {1, 0, 0, 0}) spec.mutable_pose()->add_rotation_wxyz(x);
     for (const double x : {0, 0, 0}) spec.mutable_pose()->add_translation_mm(x);
-    request.set_with_mesh(with_mesh);
     return v1::PreviewService::NewStub(caller.channel)
         ->ComputePreview(caller.context().get(), request, &out);
+  }
+  grpc::Status read(const std::string& mesh, v1::DisplayModel& out, const std::string& owner = "") {
+    Client caller(daemon->address(), owner);
+    v1::ReadModelRequest request;
+    request.mutable_inspect()->mutable_mesh()->set_name("m.obj");
+    request.mutable_inspect()->mutable_mesh()->set_asset(caller.upload(mesh));
+    return v1::PreviewService::NewStub(caller.channel)
+        ->ReadModel(caller.context().get(), request, &out);
   }
   void expect_refused(const std::string& mesh, int code, const std::string& reason) {
     v1::Preview out;
@@ -55,22 +61,84 @@ class Previews : public ::testing::Test {
 TEST_F(Previews, KeepTheMeshInTheirOwnWorker) {
   start(DaemonProcess::fake());
   v1::Preview first, second, other, third;
-  ASSERT_TRUE(preview("a", first, true).ok());
+  ASSERT_TRUE(preview("a", first).ok());
   ASSERT_TRUE(preview("a", second).ok());
   EXPECT_EQ(first.depth_mm(), second.depth_mm()) << "the same mesh uses the same process";
-  EXPECT_EQ(first.vertex_positions(), std::string(12, 'v'));
-  EXPECT_EQ(second.vertex_positions(), "");
   EXPECT_EQ(second.vertex_map(), std::string(16, 'm'));
   EXPECT_EQ(second.warnings_size(), 1);
   EXPECT_TRUE(std::isnan(second.stretch_max()));
   ASSERT_TRUE(preview("b", other).ok());
   EXPECT_NE(first.depth_mm(), other.depth_mm());
-  ASSERT_TRUE(preview("a", third, false, "somebody").ok());
+  ASSERT_TRUE(preview("a", third, "somebody").ok());
   EXPECT_NE(first.depth_mm(), third.depth_mm()) << "another user gets another process";
   if (proc_is_mounted()) {
     EXPECT_EQ(daemon->workers().size(), 2u) << "one process per user";
   }
   EXPECT_EQ(daemon->terminate(), 0);
+}
+
+TEST_F(Previews, ReadModelsInTheSameWorker) {
+  start(DaemonProcess::fake());
+  v1::DisplayModel model;
+  const grpc::Status status = read("a", model);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(model.summary().format(), "OBJ");
+  EXPECT_EQ(model.summary().shown_triangles(), 3);
+  ASSERT_EQ(model.summary().warnings_size(), 1);
+  EXPECT_EQ(model.summary().warnings(0).code(), v1::ReportWarning::FAR_FROM_ORIGIN);
+  v1::Preview dip;
+  ASSERT_TRUE(preview("a", dip).ok());
+  EXPECT_EQ(model.glb(), "glTF" + std::to_string(static_cast<long>(dip.depth_mm())))
+      << "the same process";
+  const grpc::Status refused = read("plain", model);
+  EXPECT_EQ(refused.error_code(), grpc::INVALID_ARGUMENT);
+  EXPECT_EQ(error_info(refused).reason(), "INPUT_REFUSED") << refused.error_message();
+  EXPECT_EQ(refused.error_message(), "m.png");
+}
+
+TEST_F(Previews, TwoPeopleReadTheSameModelAtOnce) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+  start({});
+  std::array<v1::DisplayModel, 2> models;
+  std::array<grpc::Status, 2> done;
+  std::thread other([&] { done[1] = read(kPyramid, models[1], "somebody"); });
+  done[0] = read(kPyramid, models[0]);
+  other.join();
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(done[i].ok()) << done[i].error_message();
+    EXPECT_EQ(models[i].summary().format(), "OBJ");
+    EXPECT_EQ(models[i].summary().triangles(), 6);
+    EXPECT_EQ(models[i].summary().highest_mm(2), 20);
+    EXPECT_TRUE(models[i].glb().starts_with("glTF"));
+  }
+  EXPECT_EQ(models[0].glb(), models[1].glb());
+}
+
+TEST_F(Previews, ReadingNamesTheMissingTexture) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+  start({});
+  v1::ReadModelRequest request;
+  v1::InspectSpec& spec = *request.mutable_inspect();
+  spec.mutable_mesh()->set_name("m.obj");
+  spec.mutable_mesh()->set_asset(
+      client->upload("mtllib m.mtl\nusemtl skin\nvt 0 0\n"
+                     "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1/1 2/1 3/1\n"));
+  v1::InputFile& materials = *spec.add_extra_files();
+  materials.set_name("m.mtl");
+  materials.set_asset(client->upload("newmtl skin\nmap_Kd skin.png\n"));
+  const auto read = [&](v1::DisplayModel& out) {
+    return v1::PreviewService::NewStub(client->channel)
+        ->ReadModel(client->context().get(), request, &out);
+  };
+  v1::DisplayModel model;
+  const grpc::Status refused = read(model);
+  EXPECT_EQ(error_info(refused).reason(), "INPUT_REFUSED");
+  EXPECT_NE(refused.error_message().find("skin.png"), std::string::npos) << refused.error_message();
+  spec.set_shape_only(true);
+  const grpc::Status shape = read(model);
+  ASSERT_TRUE(shape.ok()) << shape.error_message();
+  EXPECT_EQ(model.summary().triangles(), 1);
+  EXPECT_FALSE(model.summary().has_colour());
 }
 
 TEST_F(Previews, AreNoJobs) {
@@ -97,7 +165,7 @@ TEST_F(Previews, FullPoolReplacesAnIdleWorker) {
   start(DaemonProcess::fake());
   v1::Preview out;
   for (int i = 0; i < 12; ++i) {
-    EXPECT_TRUE(preview("a", out, false, "owner-" + std::to_string(i)).ok()) << i;
+    EXPECT_TRUE(preview("a", out, "owner-" + std::to_string(i)).ok()) << i;
   }
   if (proc_is_mounted()) {
     EXPECT_LE(daemon->workers().size(), 4u);
@@ -144,12 +212,8 @@ TEST_F(Previews, ReportWhereTheFilmLands) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   start({});
   v1::Preview out;
-  const grpc::Status status = preview(kPyramid, out, true);
+  const grpc::Status status = preview(kPyramid, out);
   ASSERT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(out.vertices(), 5);
-  EXPECT_EQ(out.triangles(), 6);
-  EXPECT_EQ(out.vertex_positions().size(), 5u * 12);
-  EXPECT_EQ(out.triangle_corners().size(), 6u * 12);
   ASSERT_EQ(out.vertex_map().size(), 5u * 16);
   std::array<float, 4> tip{};
   std::memcpy(tip.data(), out.vertex_map().data(), sizeof tip);

@@ -167,7 +167,12 @@ def jobs(api, asset):
     api.call("WatchJob", job=again, until=10**6)
     api.call("DeleteJob", job=second)
     plan(api, asset)
-    api.call("ComputePreview", {"simulate": mesh, "withMesh": True})
+    line, _, bytes_after = api.call("ComputePreview", {"simulate": mesh}).body.partition(b"\n")
+    require(len(line) % 8 == 7 and len(bytes_after) == 4 * 16, len(line), len(bytes_after))
+    require(json.loads(line)["coverage"] > 0, line)
+    read = api.call("ReadModel", {"inspect": {"mesh": mesh["mesh"]}})
+    require(read.headers["Content-Type"] == "model/gltf-binary", read.headers["Content-Type"])
+    require(read.body[:4] == b"glTF" and len(read.body) == int.from_bytes(read.body[8:12], "little"), read.body[:40])
     return first
 
 

@@ -201,6 +201,11 @@ def wrong_samples(document, samples):
         if "body" in sample:
             schema = content_of(operation["requestBody"], "application/json")
             yield from (f"{name}: {trouble}" for trouble in check(sample["body"], schema, document, RULES))
+        if "media_type" in sample:  # the answer is not JSON
+            schema = content_of(operation["responses"]["200"], sample["media_type"])
+            if schema != {"type": "string", "format": "binary"}:
+                yield f"{name}: its bytes are described as {schema}"
+            continue
         kind = "text/event-stream" if sample["streams"] else "application/json"
         for trouble in check(sample["answer"], content_of(operation["responses"]["200"], kind), document):
             yield f"{name}: {trouble}"

@@ -7,6 +7,7 @@
 
 #include "daemon/rest/json_text.h"
 #include "daemon/rest/transcoder.h"
+#include "hydroprint/v1/preview_service.pb.h"
 #include "tests/daemon/rest/requests.h"
 #include "tests/support/campaign.h"
 
@@ -60,6 +61,40 @@ TEST(RoundTrip, EveryAnswerCanBeReadBack) {
       ASSERT_TRUE(status) << status.error().message << "\n" << *text;
       ASSERT_TRUE(MessageDifferencer::Equals(*message, *read)) << *text;
     }
+  }
+}
+
+TEST(RawBody, IsTheFieldThatTheMethodNames) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  v1::DisplayModel model;
+  model.set_glb(std::string("glTF\0", 5));
+  model.mutable_summary()->set_format("OBJ");
+  const auto body =
+      transcoder->raw_body("/hydroprint.v1.PreviewService/ReadModel", model.SerializeAsString());
+  ASSERT_TRUE(body && *body);
+  EXPECT_EQ((*body)->media_type, "model/gltf-binary");
+  EXPECT_EQ((*body)->bytes, model.glb());
+  EXPECT_FALSE(transcoder->raw_body("/hydroprint.v1.JobService/GetJob", "").value());
+}
+
+TEST(RawBody, BeginsWithTheOtherFieldsIfTheMethodWantsIt) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  for (int length = 0; length < 9; ++length) {
+    v1::Preview preview;
+    preview.add_warnings()->set_message(std::string(length, '\n'));
+    preview.set_vertex_map("\n\n\n\n");
+    const auto body = transcoder->raw_body("/hydroprint.v1.PreviewService/ComputePreview",
+                                           preview.SerializeAsString());
+    ASSERT_TRUE(body && *body);
+    const std::string& bytes = (*body)->bytes;
+    const std::size_t end = bytes.find('\n');
+    EXPECT_EQ(end % 8, 7U);
+    EXPECT_EQ(bytes.substr(end + 1), preview.vertex_map());
+    const auto json = nlohmann::json::parse(bytes.substr(0, end));
+    EXPECT_EQ(json.at("warnings").at(0).at("message"), std::string(length, '\n'));
+    EXPECT_EQ(json.at("vertexMap"), "");
   }
 }
 

@@ -35,6 +35,9 @@ json sample_of(const rest::Transcoder& transcoder, const rest::Route& route, std
                  {"target", request.target},
                  {"streams", call->streams},
                  {"answer", json::parse(*text)}};
+  const auto raw = transcoder.raw_body(call->method, answer->SerializeAsString());
+  if (!raw) throw std::runtime_error(raw.error().message);
+  if (*raw) sample["media_type"] = (*raw)->media_type;
   if (!request.body.empty()) sample["body"] = json::parse(request.body);
   return sample;
 }

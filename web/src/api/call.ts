@@ -66,8 +66,11 @@ export async function call<T>(
 }
 
 /** Gets bytes, such as an artifact, from the daemon. */
-export async function fetchBytes(path: string, signal?: AbortSignal): Promise<Result<ArrayBuffer>> {
-  const answer = await send('GET', path, signal ? { signal } : {});
+export async function fetchBytes(
+  path: string,
+  { method = 'GET', ...options }: Options & { method?: Method } = {},
+): Promise<Result<ArrayBuffer>> {
+  const answer = await send(method, path, options);
   if (!answer.ok) return answer;
   if (!answer.value.ok) return { ok: false, failure: await failureOf(answer.value) };
   const bytes = await answer.value.arrayBuffer().catch(() => undefined);

@@ -18,6 +18,7 @@ export type PlanProgress = Schemas['PlanProgress'];
 export type PlannedDip = Schemas['PlanProgress.Dip'];
 export type DipSpecInput = Schemas['DipSpecInput'];
 export type PrintImageSpecInput = Schemas['PrintImageSpecInput'];
+export type InspectSpec = Schemas['InspectSpec'];
 export type InputFile = Schemas['InputFile'];
 export type Rig = Schemas['Rig'];
 export type Lease = Schemas['Lease'];

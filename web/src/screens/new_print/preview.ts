@@ -4,13 +4,14 @@
  * shown, and a missing preview is not an error.
  */
 import { computed, effect, signal } from '@preact/signals';
-import { call } from '../../api/call';
-import type { Preview, SimulateSpecInput } from '../../api/types';
-import { bytesOf } from '../../model/base64';
+import type { SimulateSpecInput } from '../../api/types';
 import { upload } from '../../api/uploads';
+import { daemon } from '../../engine/daemon';
+import type { DipPreview } from '../../engine/engine';
+import { placesOf, type Places } from '../../engine/places';
 import type { Pose } from '../../model/pose';
 import type { Warning } from '../../model/report';
-import type { Result } from '../../model/result';
+import { done, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
 import { calibrated } from './calibration';
 import { centre_mm, draft, shape, simulateOf, type Draft, type Inputs } from './draft';
@@ -95,8 +96,8 @@ class PreviewRequester {
   private bringing = new AbortController();
   private asking = new AbortController();
   private timer = 0;
-  /** The last received mesh; `key` identifies its asset and its calibration or scale. */
-  private known: { key: string; positions: Float32Array; corners: Uint32Array } | undefined;
+  /** The places of the last model; `key` identifies its asset and its calibration or scale. */
+  private known: { key: string; places: Places } | undefined;
   private isOff = false;
 
   /** Uploads the files that a preview needs. Submitting needs them too. */
@@ -160,33 +161,50 @@ class PreviewRequester {
     const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
     const spec = partOf(simulate, inputs);
-    const answer = await compute(spec, this.known?.key !== key, abortSignal);
+    const places = await this.places(spec, key, abortSignal);
+    const answer = places.ok ? await daemon.preview(spec, abortSignal) : places;
     if (abortSignal.aborted) return;
     isComputing.value = false;
-    if (answer.ok) {
-      keepFigures(spec, pose, answer.value);
-      return this.show(answer.value, key);
-    }
-    if (answer.failure.status === 404 || answer.failure.status === 501) this.isOff = true;
-    shown.value = undefined;
-    const isOfTheInput =
-      answer.failure.status === 400 || answer.failure.reason === 'PREVIEW_REFUSED';
-    refusal.value = isOfTheInput ? answer.failure.what : '';
+    if (!answer.ok) return this.refuse(answer.failure);
+    if (!places.ok) return;
+    keepFigures(spec, pose, answer.value);
+    this.show(answer.value, places.value);
   }
 
-  private show(preview: Preview, key: string): void {
-    if (preview.vertexPositions && preview.triangleCorners)
-      this.known = {
-        key,
-        positions: new Float32Array(bytesOf(preview.vertexPositions)),
-        corners: new Uint32Array(bytesOf(preview.triangleCorners)),
-      };
-    if (!this.known) return;
-    const map = new Float32Array(bytesOf(preview.vertexMap));
+  /** Returns the places of the spec's model, which is read again if it is another one. */
+  private async places(
+    { mesh, extraFiles, scale }: SimulateSpecInput,
+    key: string,
+    abortSignal: AbortSignal,
+  ): Promise<Result<Places>> {
+    if (this.known?.key === key) return done(this.known.places);
+    const glb = await daemon.read(
+      {
+        mesh: mesh!,
+        extraFiles: extraFiles ?? [],
+        ...(scale ? { scale } : {}),
+        shapeOnly: true,
+      },
+      abortSignal,
+    );
+    if (!glb.ok) return glb;
+    const places = await placesOf(glb.value);
+    if (places.ok && !abortSignal.aborted) this.known = { key, places: places.value };
+    return places;
+  }
+
+  private refuse({ what, status, reason }: Failure): void {
+    if (status === 404 || status === 501) this.isOff = true;
+    shown.value = undefined;
+    refusal.value = status === 400 || reason === 'PREVIEW_REFUSED' ? what : '';
+  }
+
+  private show(preview: DipPreview, { positions, corners }: Places): void {
+    const { map } = preview;
     refusal.value = '';
     shown.value = {
-      positions: this.known.positions,
-      corners: this.known.corners,
+      positions,
+      corners,
       stretch: Float32Array.from({ length: map.length / 4 }, (_, i) => map[4 * i + 3]!),
       coverage: preview.coverage,
       stretchP95: preview.stretchP95,
@@ -195,13 +213,6 @@ class PreviewRequester {
     };
   }
 }
-
-const compute = (
-  simulate: SimulateSpecInput,
-  withMesh: boolean,
-  abortSignal: AbortSignal,
-): Promise<Result<Preview>> =>
-  call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: abortSignal });
 
 /** The part of a simulation's spec that affects its preview. */
 function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
