@@ -59,6 +59,7 @@ Result<PlanFacts> plan_facts(const std::string& plan_job, const std::string& cal
   HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(plan_job));
   HP_ASSIGN_OR_RETURN(const Job plan, sources.jobs.get(id));
   out.plan_job = job_name(id);
+  out.owners = {plan.definition.owner, caller};
   out.has_camera = !sources.camera.device.empty();
   HP_ASSIGN_OR_RETURN(out.jobs, later_jobs(plan, caller, sources.jobs));
   HP_ASSIGN_OR_RETURN(const auto active, sources.calibrations.active(CalibrationKind::kObject));

@@ -197,18 +197,35 @@ int urgency(const Dip& dip) {
   }
 }
 
+bool is_calibration_of(const v1::Job& job, const PlanFacts& facts) {
+  return job.has_calibrate() &&
+         job.calibrate().mesh().asset() == facts.spec.object().mesh().asset();
+}
+
 /// Replaces step CALIBRATE by WAIT while a capture or the calibration of this object runs.
-void wait_for_calibration(const PlanFacts& facts, Dip& dip) {
-  if (dip.step() != v1::PlanProgress::CALIBRATE) return;
+/// @return whether there is such a job
+bool wait_for_calibration(const PlanFacts& facts, Dip& dip) {
   for (const v1::Job& job : facts.jobs) {
-    const bool is_ours =
-        job.has_capture() || (job.has_calibrate() &&
-                              job.calibrate().mesh().asset() == facts.spec.object().mesh().asset());
-    if (!is_ours || is_over(job)) continue;
+    if (is_over(job) || !(job.has_capture() || is_calibration_of(job, facts))) continue;
     dip.set_step(v1::PlanProgress::WAIT);
     dip.set_job(job.name());
-    return;
+    return true;
   }
+  return false;
+}
+
+/// Says why the newest attempt to calibrate ended without success. No spec names the dip, so
+/// attempts are those since the newest film or dip of the plan, while the next step is CALIBRATE.
+void tell_failed_calibration(const PlanFacts& facts, Dip& dip) {
+  const auto attempts = all(facts, [&](const v1::Job& job) {
+    return is_calibration_of(job, facts) ||
+           (job.has_capture() && facts.owners.contains(job.owner())) ||
+           job.simulate().plan_job() == facts.plan_job ||
+           job.dip_status().plan_job() == facts.plan_job;
+  });
+  if (attempts.empty() || is_done(*attempts.front())) return;
+  const v1::Job& newest = *attempts.front();
+  if (newest.has_capture() || newest.has_calibrate()) dip.set_trouble(ending_of(newest));
 }
 
 }  // namespace
@@ -224,8 +241,10 @@ v1::PlanProgress progress_of(const PlanFacts& facts) {
     most = urgency(dip);
     out.set_next_immersion(k);
   }
-  if (out.next_immersion() > 0)
-    wait_for_calibration(facts, *out.mutable_dips(out.next_immersion() - 1));
+  if (out.next_immersion() == 0) return out;
+  Dip& next = *out.mutable_dips(out.next_immersion() - 1);
+  if (next.step() == v1::PlanProgress::CALIBRATE && !wait_for_calibration(facts, next))
+    tell_failed_calibration(facts, next);
   return out;
 }
 

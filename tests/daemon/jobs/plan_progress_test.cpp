@@ -14,6 +14,7 @@ class PlanOf3 : public ::testing::Test {
  protected:
   PlanOf3() {
     facts.plan_job = "jobs/7";
+    facts.owners = {"ann", "bob"};
     facts.spec.mutable_object()->mutable_mesh()->set_asset(kMesh);
     facts.spec.mutable_object()->set_scale(50);
     for (int k = 0; k < 3; ++k) facts.spec.add_immersions();
@@ -55,6 +56,19 @@ class PlanOf3 : public ::testing::Test {
     active.set_scale(50);
     active.set_film("A4");
     facts.calibrations[name] = active;
+  }
+  std::string add_capture(v1::Job::State state, const std::string& owner = "ann") {
+    v1::Job& job = add(state);
+    job.mutable_capture();
+    job.set_owner(owner);
+    if (state == v1::Job::FAILED) job.mutable_error()->set_message("no camera was found");
+    return job.name();
+  }
+  std::string add_calibrate(v1::Job::State state, const std::string& mesh = kMesh) {
+    v1::Job& job = add(state);
+    job.mutable_calibrate()->mutable_mesh()->set_asset(mesh);
+    if (state == v1::Job::FAILED) job.mutable_error()->set_message("no object is in view");
+    return job.name();
   }
   void do_all(int immersion) {
     const std::string film = add_film(immersion);
@@ -182,6 +196,54 @@ TEST_F(PlanOf3, RunningCalibrationIsWaitedFor) {
   EXPECT_EQ(step(1), Progress::WAIT);
   EXPECT_EQ(progress().dips(0).job(), "jobs/8");
   EXPECT_EQ(step(2), Progress::CALIBRATE);
+}
+
+TEST_F(PlanOf3, FailedCaptureOrCalibrationIsTroubleOfTheNextDip) {
+  do_all(1);
+  const std::string capture = add_capture(v1::Job::FAILED);
+  EXPECT_EQ(step(2), Progress::CALIBRATE);
+  EXPECT_EQ(progress().dips(1).trouble(), capture + " is FAILED: no camera was found");
+  EXPECT_EQ(progress().dips(0).trouble(), "");
+  EXPECT_EQ(progress().dips(2).trouble(), "");
+  add_capture(v1::Job::SUCCEEDED);
+  EXPECT_EQ(progress().dips(1).trouble(), "") << "a newer attempt";
+  const std::string calibrate = add_calibrate(v1::Job::FAILED);
+  EXPECT_EQ(progress().dips(1).trouble(), calibrate + " is FAILED: no object is in view");
+  add_capture(v1::Job::RUNNING);
+  EXPECT_EQ(step(2), Progress::WAIT);
+  EXPECT_EQ(progress().dips(1).trouble(), "");
+}
+
+TEST_F(PlanOf3, FailedCalibrationIsNotTroubleOfAnotherDip) {
+  add_calibrate(v1::Job::FAILED);
+  do_all(1);
+  EXPECT_EQ(progress().dips(1).trouble(), "") << "the failure was before dip 1";
+}
+
+TEST_F(PlanOf3, FailedCalibrationIsOverOnceThereIsACalibration) {
+  add_calibrate(v1::Job::FAILED);
+  calibrate("calibrations/1");
+  EXPECT_EQ(step(1), Progress::SIMULATE);
+  EXPECT_EQ(progress().dips(0).trouble(), "");
+}
+
+TEST_F(PlanOf3, FailuresOfOtherObjectsAndPeopleAreNotTrouble) {
+  add_calibrate(v1::Job::FAILED, "assets/" + std::string(64, 'b'));
+  EXPECT_EQ(progress().dips(0).trouble(), "");
+  add_capture(v1::Job::FAILED, "eve");
+  EXPECT_EQ(progress().dips(0).trouble(), "");
+  add_capture(v1::Job::FAILED, "bob");
+  EXPECT_NE(progress().dips(0).trouble(), "");
+}
+
+TEST_F(PlanOf3, NewestFailureIsTold) {
+  calibrate("calibrations/1");
+  add_film(1, v1::Job::SUCCEEDED, "calibrations/1");
+  facts.calibrations["calibrations/1"].add_stale(v1::Calibration::MOVED);
+  facts.active->add_stale(v1::Calibration::MOVED);
+  EXPECT_NE(progress().dips(0).trouble().find("is out of date"), std::string::npos);
+  const std::string name = add_calibrate(v1::Job::FAILED);
+  EXPECT_EQ(progress().dips(0).trouble(), name + " is FAILED: no object is in view");
 }
 
 TEST_F(PlanOf3, JobsOfOtherPlansDoNotCount) {

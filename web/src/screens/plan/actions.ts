@@ -31,15 +31,10 @@ async function run(job: JobInput): Promise<Job | undefined> {
   return made && ended(made.name);
 }
 
-/**
- * Records frames of the hanging object, then measures its pose.
- * @return the job that ended without success, if any
- */
-async function calibrate(plan: Job, dip: PlannedDip): Promise<Job | undefined> {
+/** Records frames of the hanging object, then measures its pose. */
+async function calibrate(plan: Job, dip: PlannedDip): Promise<void> {
   const frames = await run(capture(plan, dip));
-  if (frames?.state !== 'SUCCEEDED') return frames;
-  const measured = await run(calibration(plan, dip, frames.name));
-  return measured?.state === 'SUCCEEDED' ? undefined : measured;
+  if (frames?.state === 'SUCCEEDED') await run(calibration(plan, dip, frames.name));
 }
 
 export const compute = async (plan: Job, dip: PlannedDip): Promise<void> => {
@@ -47,14 +42,10 @@ export const compute = async (plan: Job, dip: PlannedDip): Promise<void> => {
   await read(plan.name);
 };
 
-/**
- * Does the next step of a dip, if it creates jobs.
- * @return the job of a calibration that ended without success, which the plan's progress does not contain
- */
-export async function take(plan: Job, dip: PlannedDip): Promise<Job | undefined> {
-  const failed = dip.step === 'CALIBRATE' ? await calibrate(plan, dip) : undefined;
+/** Does the next step of a dip, if it creates jobs. */
+export async function take(plan: Job, dip: PlannedDip): Promise<void> {
+  if (dip.step === 'CALIBRATE') await calibrate(plan, dip);
   if (dip.step === 'SIMULATE') await create(simulation(plan, dip));
   if (dip.step === 'LAY_OUT') await create(layout(plan, dip));
   await read(plan.name);
-  return failed;
 }

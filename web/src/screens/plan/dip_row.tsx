@@ -22,7 +22,7 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
       <h3>
         Dip {dip.immersion} <span class={`state ${stateClass(dip)}`}>{stateText(dip)}</span>
       </h3>
-      {dip.trouble && <p class="warning">{dip.trouble}.</p>}
+      {dip.trouble && !props.isNext && <p class="warning">{dip.trouble}.</p>}
       {(dip.warnings ?? []).map((warning) => (
         <p class="warning" key={warning}>
           {warning}

@@ -2,10 +2,9 @@ import { useEffect, useState } from 'preact/hooks';
 import { artifactAddress, imageAddress } from '../../api/services';
 import type { Job, PlannedDip } from '../../api/types';
 import { beginnings } from '../../events';
-import { jobPath } from '../../route';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
-import { dipText, kindText, numberOf, withoutDip } from '../../ui/job_text';
+import { dipText, withoutDip } from '../../ui/job_text';
 import { DipRow, PdfLink } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
@@ -44,11 +43,9 @@ export function PlanView({ job }: { job: Job }) {
 function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number }) {
   // Calibrating has two jobs, between which the button stays the same.
   const [isBusy, setBusy] = useState(false);
-  const [failed, setFailed] = useState<Job>();
   const act = async () => {
     setBusy(true);
-    setFailed(undefined);
-    setFailed(await take(plan, dip));
+    await take(plan, dip);
     setBusy(false);
   };
   const page = isBusy ? undefined : pageOf(dip);
@@ -59,7 +56,11 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
       <p class="instruction" role="status">
         {withoutDip(dip.instruction)}
       </p>
-      {failed && <Failed job={failed} />}
+      {dip.trouble && (
+        <p class="warning" role="alert">
+          {dip.trouble}.
+        </p>
+      )}
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
       {dip.step === 'DIP' && (
         <p>
@@ -89,14 +90,6 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     </section>
   );
 }
-
-/** Why the calibration ended without success. */
-const Failed = ({ job }: { job: Job }) => (
-  <p class="warning" role="alert">
-    {job.error?.message ?? `The ${kindText(job)} was not completed`}.{' '}
-    <a href={jobPath(job.name)}>Job {numberOf(job.name)}</a>
-  </p>
-);
 
 const PlannedPose = ({ dip }: { dip: PlannedDip }) => (
   <img
