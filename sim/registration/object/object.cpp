@@ -218,6 +218,22 @@ void place_in_film(const FilmFrame& frame, ObjectPose& out) {
     out.weak.push_back(describe(weak, fit.centre_mm, X_FC));
 }
 
+tl::unexpected<Error> too_few(std::size_t points, const Surroundings& around) {
+  std::string why = "no object is in view above the water. Mount the object, or raise it";
+  if (points > 0) {
+    why = fmt::format(
+        "too little of the object is in view above the water: {} points of at least {}. ", points,
+        kFewestPoints);
+    why += std::isfinite(around.gripper_from_mm)
+               ? fmt::format(
+                     "Above {:.0f} mm, all within {:g} mm of the gripper's axis counts as "
+                     "the gripper. Hang it lower below the gripper, for example on a rod",
+                     around.gripper_from_mm, around.gripper_radius_mm)
+               : "Raise it, or move the camera nearer";
+  }
+  return fail(Code::kFailedPrecondition, why, "NO_OBJECT");
+}
+
 void warn(ObjectPose& out) {
   if (out.sight.out_of_view > kOutOfView)
     out.warnings.push_back({"object_partly_out_of_view",
@@ -240,9 +256,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
                                const Context& context) {
   const ObjectPoints found = object_points(cloud, film_frame, task.surroundings);
   const auto& points = found.all;
-  if (points.size() < kFewestPoints)
-    return fail(Code::kFailedPrecondition,
-                "no object is in view above the water. Mount the object, or raise it", "NO_OBJECT");
+  if (points.size() < kFewestPoints) return too_few(points.size(), task.surroundings);
   const Shape shape(task.surface);
   HP_RETURN_IF_ERROR(check_size(shape, std::span(points).first(found.largest)));
   const Pose nominal_CO = film_frame.X_CF() * task.nominal_FO;

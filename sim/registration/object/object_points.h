@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "sim/registration/film_frame/film_frame.h"
@@ -12,7 +13,8 @@ struct Surroundings {
   /// Position (x, y) of the axis of the vertical cylinder that contains the gripper.
   Eigen::Vector2d gripper_mm = Eigen::Vector2d::Zero();
   double gripper_radius_mm = 28;
-  double gripper_from_mm = 1e9;  ///< height of the gripper's lower end; default: no gripper
+  /// Height of the gripper's lower end; default: no gripper.
+  double gripper_from_mm = std::numeric_limits<double>::infinity();
   /// The object is within this distance of the film's centre in x and in y.
   Eigen::Vector2d reach_mm{140, 180};
   MarkerLayout layout;  ///< the layout passed to find_film_frame()

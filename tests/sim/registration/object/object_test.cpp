@@ -162,11 +162,41 @@ TEST(Object, NoObjectOrTwoObjectsAreRefused) {
   Hanging hanging(tripod());
   const auto object = hanging.rig.more;
   hanging.rig.more.clear();
-  EXPECT_EQ(hanging.reason().substr(0, 9), "NO_OBJECT");
+  EXPECT_EQ(hanging.reason().substr(0, 31), "NO_OBJECT: no object is in view");
   hanging.rig.more = object;
   hanging.rig.more.push_back(
       testing::body_of(box({-110, -60, 40}, {-70, 0, 80}), Pose::Identity()));
   EXPECT_EQ(hanging.reason().substr(0, 11), "TWO_OBJECTS");
+}
+
+/// An L of 50 x 30 x 40 mm upside down: its plate is on top, its leg hangs from one end. The camera
+/// looks steeply from above, so it sees little but the top.
+mesh::Surface bracket_upside_down() {
+  return joined(box({-30, -15, -12}, {20, 15, 0}), box({8, -15, -40}, {20, 15, -12}));
+}
+
+/// Hangs the bracket below the lower end of the gripper, and returns what the camera with errors
+/// finds.
+std::string bracket_reason(double below_mm) {
+  Hanging hanging(tripod());
+  hanging.task.surface = bracket_upside_down();
+  hanging.rig.gripper_mm = 130;
+  hanging.task.surroundings.gripper_from_mm = hanging.rig.gripper_mm - 5;
+  hanging.task.nominal_FO = Pose(Eigen::Translation3d(0, 0, hanging.rig.gripper_mm - below_mm));
+  hanging.hang(hanging.task.nominal_FO);
+  const auto f = hanging.fused(hanging.rig.frames(8, 1));
+  const auto pose =
+      find_object(hanging.cloud(f), f.mean, hanging.frame(), hanging.task, testing::two_threads());
+  return pose ? "" : pose.error().reason + ": " + pose.error().message;
+}
+
+TEST(Object, SmallObjectAtTheGripperIsToBeHungLower) {
+  EXPECT_EQ(bracket_reason(20), "");
+  const std::string reason = bracket_reason(0);
+  EXPECT_EQ(reason.substr(0, 9), "NO_OBJECT");
+  EXPECT_NE(reason.find("too little of the object"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("Above 125 mm, all within 28 mm"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("Hang it lower"), std::string::npos) << reason;
 }
 
 TEST(Object, HalfOutOfViewIsReported) {
