@@ -21,6 +21,7 @@
 #include "sim/pipeline/ink_passes.h"
 #include "sim/pipeline/read_inputs.h"
 #include "sim/pipeline/stokes_pass.h"
+#include "sim/plan/facets.h"
 #include "sim/waterline/body.h"
 
 namespace hydroprint::pipeline {
@@ -177,10 +178,9 @@ Status draw_pictures(const Plan& plan, const Dip& dip, const film::Outline& outl
 /// Returns a third of the area of the triangles at each point, mm2.
 std::vector<double> point_areas_mm2(const mesh::Surface& surface) {
   std::vector<double> out(surface.points.size(), 0);
-  for (const Eigen::Vector3i& t : surface.triangles) {
-    const auto& p = surface.points;
-    const double third_mm2 = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 6;
-    for (const int v : t) out[static_cast<std::size_t>(v)] += third_mm2;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const double third_mm2 = plan::area_mm2(surface, t) / 3;
+    for (const int v : surface.triangles[t]) out[static_cast<std::size_t>(v)] += third_mm2;
   }
   return out;
 }
@@ -248,6 +248,13 @@ Result<image::RgbImage> combined_picture(const Plan& plan, const image::LandedIn
   HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
                       image::find_views(plan.surface, plan.dips.front().X_FO, {}, context));
   return image::ink_picture(views, ink, context);
+}
+
+double surface_area_mm2(const Plan& plan) {
+  double sum_mm2 = 0;
+  for (std::size_t t = 0; t < plan.surface.triangles.size(); ++t)
+    sum_mm2 += plan::area_mm2(plan.surface, t);
+  return sum_mm2;
 }
 
 std::optional<StretchQuantiles> stretch_of(const Plan& plan, const std::vector<DipPrint>& prints,

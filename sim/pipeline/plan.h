@@ -84,6 +84,9 @@ struct DipPrint {
                                                        const image::LandedInk& ink,
                                                        const Context& context);
 
+/// Returns the area of the object's surface, mm2.
+[[nodiscard]] double surface_area_mm2(const Plan& plan);
+
 /// Quantiles of the stretch over an area.
 struct StretchQuantiles {
   double p50 = 0, p95 = 0, max = 0;

@@ -43,10 +43,9 @@ double lost_share(const plan::Fragments& fragments, const mesh::Surface& surface
   for (std::size_t i = 0; i < fragments.all.size(); ++i) {
     const plan::Fragment& fragment = fragments.all[i];
     if (fragment.dip != dip) continue;
-    const Eigen::Vector3i& t = surface.triangles[static_cast<std::size_t>(fragment.triangle)];
-    const auto& p = surface.points;
-    const double area_mm2 =
-        fragments.share(i) * (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+    const auto triangle = static_cast<std::size_t>(fragment.triangle);
+    const Eigen::Vector3i& t = surface.triangles[triangle];
+    const double area_mm2 = fragments.share(i) * plan::area_mm2(surface, triangle);
     all_mm2 += area_mm2;
     const bool is_reached = std::isfinite(stretch[static_cast<std::size_t>(t[0])]) &&
                             std::isfinite(stretch[static_cast<std::size_t>(t[1])]) &&

@@ -75,6 +75,12 @@ SideFrame Facets::frame(int side) const {
   return frame;
 }
 
+double area_mm2(const mesh::Surface& surface, std::size_t triangle) {
+  const auto& p = surface.points;
+  const Eigen::Vector3i& t = surface.triangles[triangle];
+  return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+}
+
 Eigen::Vector3d place_of(const mesh::Surface& surface, int triangle,
                          const Eigen::Vector3d& barycentric) {
   Eigen::Vector3d place = Eigen::Vector3d::Zero();

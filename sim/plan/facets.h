@@ -74,6 +74,9 @@ class Facets {
   std::vector<int> vertex_corners_;
 };
 
+/// Returns the area of a triangle, mm2.
+[[nodiscard]] double area_mm2(const mesh::Surface& surface, std::size_t triangle);
+
 /// Returns the place of a point given in barycentric coordinates; frame O, mm.
 [[nodiscard]] Eigen::Vector3d place_of(const mesh::Surface& surface, int triangle,
                                        const Eigen::Vector3d& barycentric);

@@ -25,18 +25,9 @@ void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch,
   out.set_max(stretch->max);
 }
 
-double surface_area_mm2(const mesh::Surface& surface) {
-  double sum = 0;
-  for (const Eigen::Vector3i& t : surface.triangles) {
-    const auto& p = surface.points;
-    sum += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
-  }
-  return sum;
-}
-
 void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
               v1::PlanReport& out) {
-  const double area_mm2 = surface_area_mm2(plan.surface);
+  const double area_mm2 = pipeline::surface_area_mm2(plan);
   for (std::size_t k = 0; k < plan.dips.size(); ++k) {
     v1::PlanReport::Dip& dip = *out.add_immersions();
     const pipeline::DipFigures& figures = plan.dips[k].figures;
