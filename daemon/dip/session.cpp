@@ -66,6 +66,7 @@ v1::DipStatus status_of(Step step, const std::string& instruction, const dip::Pl
   out.set_instruction(instruction);
   out.set_immersion(plan.immersion);
   out.set_immersions(plan.immersions);
+  if (plan.contact_mm) out.set_contact_mm(*plan.contact_mm);
   if (plan.plan_job.empty()) return out;
   out.set_plan_job(plan.plan_job);
   out.set_picture(fmt::format("{}/artifacts/stretch-{}.png", plan.plan_job, plan.immersion));

@@ -56,7 +56,7 @@ async function dip(page: Page): Promise<void> {
 
 async function finishDip(page: Page): Promise<void> {
   await press(page, 'The object is mounted');
-  await press(page, 'The object almost touches the water');
+  await press(page, 'First contact is measured, hands are clear: go on');
   await press(page, 'The film floats between the bars');
   await press(page, 'The activator is sprayed');
   await press(page, 'Hands are clear: dip now');

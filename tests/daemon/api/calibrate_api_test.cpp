@@ -317,6 +317,8 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   const v1::Job waiting = ann->guide_to(job.name(), v1::DipStatus::FIND_CONTACT);
   EXPECT_TRUE(has(waiting.dip_status().instruction(), found.name()))
       << waiting.dip_status().instruction();
+  EXPECT_EQ(job.dip_status().contact_mm(), found.contact_mm()) << "known from the beginning";
+  EXPECT_EQ(waiting.dip_status().contact_mm(), found.contact_mm());
   const v1::Job ended = done(ann->guide_to(job.name(), v1::DipStatus::RETRACT));
   ASSERT_EQ(ended.state(), v1::Job::SUCCEEDED) << ended.error().message();
   EXPECT_EQ(ended.dip_status().contact_mm(), found.contact_mm());

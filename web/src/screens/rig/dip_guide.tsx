@@ -11,14 +11,18 @@ import { Button, ConfirmButton } from '../../ui/controls';
 import { dipText, State, withoutDip } from '../../ui/job_text';
 import { Jog } from './jog';
 
-/** The steps of a dip in order; `confirm` is the button text of steps that wait for the operator. */
-const kSteps: { step: string; title: string; confirm?: string }[] = [
+/**
+ * The steps of a dip in order; `confirm` is the button text of steps that wait for the operator, and
+ * `measured` the one where first contact is known from a calibration.
+ */
+const kSteps: { step: string; title: string; confirm?: string; measured?: string }[] = [
   { step: 'PRINT_FILM', title: 'Print the film', confirm: 'The film is printed' },
   { step: 'LOAD_OBJECT', title: 'Mount the object', confirm: 'The object is mounted' },
   {
     step: 'FIND_CONTACT',
     title: 'Find first contact',
     confirm: 'The object almost touches the water',
+    measured: 'First contact is measured, hands are clear: go on',
   },
   { step: 'CLEAR', title: 'Raise the object' },
   { step: 'LAY_FILM', title: 'Lay the film', confirm: 'The film floats between the bars' },
@@ -45,6 +49,7 @@ export function DipGuide({ name }: { name: string }) {
   const { dipStatus: status } = job;
   const at = kSteps.findIndex(({ step }) => step === status.step);
   const here = kSteps[at];
+  const isMeasured = status.contactMm !== undefined;
   const left = secondsUntil(status.stepEndTime);
   const film = secondsUntil(status.activationEndTime);
   return (
@@ -79,7 +84,7 @@ export function DipGuide({ name }: { name: string }) {
       {status.step === 'FIND_CONTACT' && isOurs.value && (
         <Jog fastest_mm_per_s={rig.value?.axis?.maxSpeedMmPerS ?? 10} />
       )}
-      <Confirm job={job} words={here?.confirm} />
+      <Confirm job={job} words={(isMeasured && here?.measured) || here?.confirm} />
       <Steps at={at} />
       <p class="row">
         <a href={jobPath(name)}>Dip record</a>
