@@ -1,12 +1,8 @@
 import type { ComponentChildren } from 'preact';
-import { useLayoutEffect } from 'preact/hooks';
+import { useEffect, useLayoutEffect } from 'preact/hooks';
 import { link } from './events';
 import { route } from './route';
-import { JobScreen } from './screens/job';
 import { NewPrint } from './screens/new_print';
-import { People } from './screens/people';
-import { QueueScreen } from './screens/queue';
-import { RigScreen } from './screens/rig';
 import { SignIn } from './screens/sign_in';
 import { StopAlarm } from './screens/stop_alarm';
 import { dismiss, notices } from './state/notices';
@@ -15,6 +11,7 @@ import { may, mustSignIn, signOut, who } from './state/session';
 import { stopAlarm } from './state/stop_alarm';
 import { nextTheme, theme } from './theme';
 import { Icon } from './ui/icon';
+import { later } from './ui/later';
 
 const kScreens = [
   { path: '', label: 'New print', icon: 'new' },
@@ -22,6 +19,23 @@ const kScreens = [
   { path: 'rig', label: 'Rig', icon: 'rig' },
   { path: 'people', label: 'People', icon: 'people' },
 ] as const;
+
+const kLoads = {
+  job: () => import('./screens/job').then(({ JobScreen }) => JobScreen),
+  queue: () => import('./screens/queue').then(({ QueueScreen }) => QueueScreen),
+  rig: () => import('./screens/rig').then(({ RigScreen }) => RigScreen),
+  people: () => import('./screens/people').then(({ People }) => People),
+};
+const JobScreen = later(kLoads.job);
+const QueueScreen = later(kLoads.queue);
+const RigScreen = later(kLoads.rig);
+const People = later(kLoads.people);
+
+const kPause_ms = 1000;
+
+/** Loads the other screens once the first one is shown, because the daemon may not answer when they are needed. */
+const loadOthers = (): void =>
+  Object.values(kLoads).forEach((load) => void load().catch(() => undefined));
 
 export function App() {
   if (mustSignIn.value)
@@ -34,6 +48,10 @@ export function App() {
 }
 
 function Screen() {
+  useEffect(() => {
+    const timer = window.setTimeout(loadOthers, kPause_ms);
+    return () => window.clearTimeout(timer);
+  }, []);
   const [first, second] = route.value.parts;
   if (first === 'jobs' && second) return <JobScreen key={second} name={`jobs/${second}`} />;
   if (first === 'jobs') return <QueueScreen />;

@@ -22,3 +22,6 @@ export const go = (path: string): void => {
 
 /** The URL of a job's screen. */
 export const jobPath = (name: string): string => `#/${name}`;
+
+/** The URL of a new print that begins with a job's choices. */
+export const againPath = (name: string): string => `#/?from=${name}`;

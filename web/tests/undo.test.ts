@@ -91,7 +91,7 @@ describe('steps of the draft', () => {
     nextStep();
     change(remove(draft.value, 0));
     undo();
-    expect(draft.value.before).toEqual([kUpright]);
+    expect(draft.value.before).toEqual([{ pose: kUpright }]);
     undo();
     expect(draft.value).toMatchObject({ before: [], pose: kUpright, after: [] });
   });

@@ -30,6 +30,13 @@ export interface SurfacePoint {
 
 export type Gizmo = 'none' | 'rotate' | 'translate';
 
+export interface Events {
+  /** Called while the user rotates or moves the object. */
+  onPose: (pose: Pose) => void;
+  /** Called when the object or its paint has changed. */
+  onLook: () => void;
+}
+
 export class PoseView {
   private readonly stage: Stage;
   // Its origin is the centre of the object's bounding box, about which the object rotates.
@@ -41,13 +48,12 @@ export class PoseView {
   private positions = new Float32Array();
   private scale = 1;
 
-  /** @param onPose  called while the user rotates or moves the object */
   constructor(
     host: HTMLElement,
-    private readonly onPose: (pose: Pose) => void,
+    private readonly events: Events,
   ) {
     this.stage = new Stage(host);
-    this.painted = new PaintedObject(this.stage.renderer, () => this.stage.draw());
+    this.painted = new PaintedObject(this.stage.renderer, () => this.changeLook());
     this.gizmo = new TransformControls(this.stage.camera, this.stage.renderer.domElement);
     this.gizmo.setSpace('world');
     this.gizmo.attach(this.holder);
@@ -75,7 +81,7 @@ export class PoseView {
     object.position.copy(this.originOfO());
     object.scale.setScalar(scale);
     this.holder.add(object);
-    this.stage.draw();
+    this.changeLook();
   }
 
   /**
@@ -84,7 +90,7 @@ export class PoseView {
    */
   setPaint(paint: Paint | undefined): void {
     this.painted.setPaint(paint);
-    this.stage.draw();
+    this.changeLook();
   }
 
   /** The point of the object at a place on the screen (`clientX`, `clientY` of a pointer event), if there is one. */
@@ -141,11 +147,24 @@ export class PoseView {
   }
 
   setPose(pose: Pose): void {
-    const [w, x, y, z] = pose.rotation;
-    this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
-    this.painted.setRotation(pose.rotation);
-    this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
+    this.place(pose);
     this.stage.draw();
+  }
+
+  /** Draws the painted object in other poses into canvases. What the view shows stays. */
+  portray(pictures: readonly { pose: Pose; canvas: HTMLCanvasElement }[]): void {
+    const shown = this.poseOfHolder();
+    const { object } = this.painted;
+    const others = [this.gizmo.getHelper(), this.heat, object];
+    const before = others.map(({ visible }) => visible);
+    others.forEach((other) => (other.visible = other === object));
+    for (const { pose, canvas } of pictures) {
+      this.place(pose);
+      this.stage.portray(canvas, 0.48 * this.size_mm().length(), this.holder.position);
+    }
+    others.forEach((other, k) => (other.visible = before[k]!));
+    this.place(shown);
+    this.stage.drawNow();
   }
 
   setGizmo(gizmo: Gizmo): void {
@@ -189,15 +208,29 @@ export class PoseView {
     return new Vector3(x, y, z).multiplyScalar(-this.scale);
   }
 
+  private changeLook(): void {
+    this.stage.draw();
+    this.events.onLook();
+  }
+
+  private place(pose: Pose): void {
+    const [w, x, y, z] = pose.rotation;
+    this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
+    this.painted.setRotation(pose.rotation);
+    this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
+  }
+
+  private poseOfHolder(): Pose {
+    const { quaternion, position } = this.holder;
+    const { x, y, z, w } = quaternion;
+    return { rotation: [w, x, y, z], centre_mm: [position.x, position.y] };
+  }
+
   private emitPose(): void {
-    const { x, y, z, w } = this.holder.quaternion;
-    const pose: Pose = {
-      rotation: [w, x, y, z],
-      centre_mm: [this.holder.position.x, this.holder.position.y],
-    };
+    const pose = this.poseOfHolder();
     this.holder.position.z = this.heightFor(pose);
     this.painted.setRotation(pose.rotation);
-    this.onPose(pose);
+    this.events.onPose(pose);
   }
 
   /** Height of the box's centre over the water when the lowest point touches the water. */

@@ -86,12 +86,42 @@ export class Stage {
   }
 
   private lookFrom(direction: Vector3, reach_mm: number, centre: Vector3): void {
-    const wide = Math.min(1, this.camera.aspect);
-    const distance = reach_mm / Math.sin((this.camera.fov * Math.PI) / 360) / wide;
-    this.camera.position.copy(centre).addScaledVector(direction.normalize(), distance);
+    this.camera.position
+      .copy(centre)
+      .addScaledVector(direction.normalize(), this.distanceFor(reach_mm));
     this.controls.target.copy(centre);
     this.controls.update();
     this.draw();
+  }
+
+  private distanceFor(reach_mm: number): number {
+    const wide = Math.min(1, this.camera.aspect);
+    return reach_mm / Math.sin((this.camera.fov * Math.PI) / 360) / wide;
+  }
+
+  /**
+   * Draws what is within `reach_mm` of `centre`, seen from the corner, into a square canvas. Must be followed by
+   * `drawNow`, before the browser shows the stage.
+   */
+  portray(canvas: HTMLCanvasElement, reach_mm: number, centre: Vector3): void {
+    const { domElement } = this.renderer;
+    const side = Math.min(domElement.width, domElement.height);
+    const context = canvas.getContext('2d');
+    if (!context || side === 0) return;
+    const { position, quaternion } = this.camera.clone();
+    const direction = new Vector3(...kFrom.corner).normalize();
+    this.camera.position.copy(centre).addScaledVector(direction, this.distanceFor(reach_mm));
+    this.camera.lookAt(centre);
+    this.drawNow();
+    this.camera.position.copy(position);
+    this.camera.quaternion.copy(quaternion);
+    const [x, y] = [(domElement.width - side) / 2, (domElement.height - side) / 2];
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(domElement, x, y, side, side, 0, 0, canvas.width, canvas.height);
+  }
+
+  drawNow(): void {
+    this.renderer.render(this.scene, this.camera);
   }
 
   /** Renders once, in the next frame. */
@@ -100,7 +130,7 @@ export class Stage {
     this.isAsked = true;
     requestAnimationFrame(() => {
       this.isAsked = false;
-      this.renderer.render(this.scene, this.camera);
+      this.drawNow();
     });
   }
 

@@ -3,7 +3,7 @@ import { jobs as api, newRequestId } from '../../api/services';
 import type { Job, JobInput } from '../../api/types';
 import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
-import { go } from '../../route';
+import { againPath, go } from '../../route';
 import { canRetry, forget, isFinished, known, refresh, remember } from '../../state/jobs';
 import { orNotify, say } from '../../state/notices';
 import { may, mayChange } from '../../state/session';
@@ -100,8 +100,8 @@ function Actions({ job }: { job: Job }) {
           Placement template
         </Button>
       )}
-      {kind === 'simulate' && isFinished(job) && may('MAKER') && (
-        <a class="button" href={`#/?from=${job.name}`}>
+      {(kind === 'simulate' || kind === 'plan') && isFinished(job) && may('MAKER') && (
+        <a class="button" href={againPath(job.name)}>
           Run again with changes
         </a>
       )}

@@ -1,24 +1,19 @@
-import type { ComponentType } from 'preact';
-import { useEffect, useState } from 'preact/hooks';
 import type { Job } from '../../api/types';
 import { jobPath } from '../../route';
 import { numberOf } from '../../ui/job_text';
+import { later } from '../../ui/later';
 import { Files } from './files';
 import type { Results } from './results';
 import { WarningLines } from './warning_lines';
 
-type View = ComponentType<{ job: Job }>;
+const PlanView = later(() => import('../plan').then((plan) => plan.PlanView));
 
 /** A plan of several dips. The code of its page is loaded only when it is needed. */
 export function PlanBody({ job, results }: { job: Job; results: Results }) {
-  const [view, setView] = useState<{ View: View }>();
-  useEffect(() => {
-    void import('../plan').then(({ PlanView }) => setView({ View: PlanView }));
-  }, []);
   if (job.state !== 'SUCCEEDED') return <Files results={results} />;
   return (
     <>
-      {view ? <view.View job={job} /> : <p class="quiet">Loading the dips…</p>}
+      <PlanView job={job} />
       <WarningLines results={results} />
       <details>
         <summary>Files of the plan</summary>

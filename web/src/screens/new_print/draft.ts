@@ -6,11 +6,12 @@ import type {
   InputFile,
   Job,
   JobInput,
+  PlanSpec,
   PlanSpecInput,
   SimulateSpec,
   SimulateSpecInput,
 } from '../../api/types';
-import { posesOf, type Dips } from '../../model/dips';
+import { dipsOf, split, type Dips } from '../../model/dips';
 import { filmOf, type Film } from '../../model/film';
 import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Vec3 } from '../../model/pose';
@@ -24,8 +25,8 @@ import { layerOfOldDraft, pictureOf, pictureSpec } from './picture/spec';
 export interface Draft extends Dips {
   /** Dropped files; empty if the files of job `from` are used. */
   files: File[];
-  /** The job that is run again with changes, and its spec. */
-  from?: { job: string; spec: SimulateSpec };
+  /** The job that is run again with changes. */
+  from?: Source;
   name: string;
   scale: number;
   /** How the picture comes to the surface, as far as it was chosen. */
@@ -37,11 +38,18 @@ export interface Draft extends Dips {
   paper: string;
   colours: 'COLOURS_RGB' | 'COLOURS_CMYK';
   model: 'MODEL_SHEET' | 'MODEL_STOKES';
-  /** If not set, the whole object is dipped. */
-  depth_mm?: number;
   speed_mm_per_s: number;
   /** Ensures that a repeated request creates only one job. Every change of the draft sets a new id. */
   requestId: string;
+}
+
+/** A simulation, or a plan with what it has in common with one. */
+interface Source {
+  job: string;
+  spec: SimulateSpec;
+  plan?: Pick<PlanSpec, 'immersions' | 'blendMm'>;
+  /** True once the draft has the dips of the job, which may have been changed since. */
+  isTaken?: boolean;
 }
 
 export const kEmpty: Draft = {
@@ -152,17 +160,19 @@ export function clear(): void {
 export async function startFrom(name: string): Promise<Result<Job>> {
   const answer = await jobsApi.get(name);
   if (!answer.ok) return answer;
-  const { simulate: spec, labels } = answer.value;
-  if (!spec)
+  const { labels } = answer.value;
+  const from = sourceOf(answer.value);
+  if (!from)
     return refused(
-      `job ${numberOf(name)} is not a simulation`,
-      'Open a simulation and press “Run again with changes”',
+      `job ${numberOf(name)} is not a simulation or a plan`,
+      'Open a simulation or a plan and press “Run again with changes”',
     );
+  const { spec } = from;
   batch(() => {
     shape.value = undefined;
     draft.value = {
       ...kEmpty,
-      from: { job: name, spec },
+      from,
       name: answer.value.displayName,
       scale: spec.scale ?? 1,
       layer: pictureOf(spec)?.layer ?? {},
@@ -172,18 +182,29 @@ export async function startFrom(name: string): Promise<Result<Job>> {
       colours: labels['colours'] === 'COLOURS_CMYK' ? 'COLOURS_CMYK' : 'COLOURS_RGB',
       model: spec.model === 'MODEL_STOKES' ? 'MODEL_STOKES' : 'MODEL_SHEET',
       speed_mm_per_s: spec.dipSpeedMmPerS ?? 5,
-      ...(spec.depthMm ? { depth_mm: spec.depthMm } : {}),
       requestId: newRequestId(),
     };
   });
   return done(answer.value);
 }
 
-/** Uses the pose of the job. The shape must be loaded first. */
-export function takePoseOfJob(): void {
+function sourceOf({ name: job, simulate, plan }: Job): Source | undefined {
+  if (simulate) return { job, spec: simulate };
+  if (!plan) return undefined;
+  const { object, film, dpi, immersions, blendMm } = plan;
+  const spec = { ...film, ...object, ...(dpi ? { dpi } : {}) } as SimulateSpec;
+  return { job, spec, plan: { immersions, ...(blendMm ? { blendMm } : {}) } };
+}
+
+/** Uses the dips of the job, unless the draft has them already. The shape must be loaded first. */
+export function takeDipsOfJob(): void {
   const { from } = draft.value;
-  const pose = fromApi(from?.spec.pose, centre_mm.value);
-  if (pose) change({ pose });
+  if (!from || from.isTaken) return;
+  const dips = (from.plan?.immersions ?? [from.spec]).map(({ pose, depthMm }) => ({
+    pose: fromApi(pose, centre_mm.value) ?? kUpright,
+    depth_mm: depthMm || undefined,
+  }));
+  change({ ...split(dips, 0), from: { ...from, isTaken: true } });
 }
 
 /** The input files of the new job: uploaded files, and files of job `from`. */
@@ -222,6 +243,7 @@ export function simulateOf(value: Draft, inputs: Inputs, box_mm: Vec3): Simulate
 /** Builds the plan that divides the picture among all dips. */
 function planOf(value: Draft, inputs: Inputs, box_mm: Vec3): PlanSpecInput {
   const { mesh, extraFiles, profile, paint } = inputs;
+  const blendMm = value.from?.plan?.blendMm;
   return {
     object: {
       mesh,
@@ -230,9 +252,9 @@ function planOf(value: Draft, inputs: Inputs, box_mm: Vec3): PlanSpecInput {
       ...(paint ? { paint } : {}),
       ...picture(inputs, value),
     },
-    immersions: posesOf(value).map((pose) => ({
+    immersions: dipsOf(value).map(({ pose, depth_mm }) => ({
       pose: toApi(pose, box_mm),
-      ...(value.depth_mm ? { depthMm: value.depth_mm } : {}),
+      ...(depth_mm ? { depthMm: depth_mm } : {}),
     })),
     film: {
       film: value.film,
@@ -241,6 +263,7 @@ function planOf(value: Draft, inputs: Inputs, box_mm: Vec3): PlanSpecInput {
       ...(profile ? { profile } : {}),
     },
     dpi: value.dpi,
+    ...(blendMm ? { blendMm } : {}),
   };
 }
 
@@ -249,7 +272,7 @@ export function jobOf(value: Draft, inputs: Inputs, box_mm: Vec3): JobInput {
   return {
     displayName: value.name,
     labels: { paper: value.paper, colours: value.colours },
-    ...(posesOf(value).length > 1
+    ...(dipsOf(value).length > 1
       ? { plan: planOf(value, inputs, box_mm) }
       : { simulate: simulateOf(value, inputs, box_mm) }),
   };

@@ -18,3 +18,6 @@ export const setMode = (value: Mode): void => {
 
 /** The 3D view that is shown. */
 export const view = signal<PoseView | undefined>(undefined);
+
+/** Counts how often the object in the view has changed other than by its pose. */
+export const looks = signal(0);

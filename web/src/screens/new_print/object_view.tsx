@@ -10,7 +10,7 @@ import { Legend } from '../../ui/legend';
 import { calibrated } from './calibration';
 import { change, film, layer, shape } from './draft';
 import { arrangement } from './intake';
-import { mode, setMode, view, type Mode } from './mode';
+import { looks, mode, setMode, view, type Mode } from './mode';
 import { decoded, followPictures, texturePicture } from './picture/decoded';
 import { isMovable, pose, scale, surroundings } from './picture/placed';
 import { listen } from './picture/pointer_input';
@@ -49,7 +49,10 @@ export function ObjectView() {
     void import('../../view3d/pose_view').then(({ PoseView: View }) => {
       if (isGone || !host.current) return;
       try {
-        view.value = new View(host.current, (turned) => change({ pose: turned }));
+        view.value = new View(host.current, {
+          onPose: (turned) => change({ pose: turned }),
+          onLook: () => (looks.value = looks.peek() + 1),
+        });
       } catch {
         setTrouble(
           'This browser cannot show 3D because WebGL is off or missing. Enter the rotation as numbers; everything else works.',

@@ -1,4 +1,4 @@
-import { posesOf } from '../../model/dips';
+import { dipsOf } from '../../model/dips';
 import { fromAngles, kUpright, product, toAngles, turn, type Vec3 } from '../../model/pose';
 import { formatMm } from '../../model/units';
 import { Choice, NumberField } from '../../ui/controls';
@@ -11,7 +11,7 @@ const kAxes = ['x', 'y', 'z'] as const;
 /** The pose of the object: entered as numbers, in steps of 90°, or taken from a calibration. */
 export function PosePanel() {
   if (!shape.value) return null;
-  const isPlan = posesOf(draft.value).length > 1;
+  const isPlan = dipsOf(draft.value).length > 1;
   return (
     <section aria-labelledby="pose-title">
       <h2 id="pose-title">2 Pose{isPlan && ` of dip ${draft.value.before.length + 1}`}</h2>

@@ -9,7 +9,7 @@ import { upload } from '../../api/uploads';
 import { daemon } from '../../engine/daemon';
 import type { DipPreview } from '../../engine/engine';
 import { placesOf, type Places } from '../../engine/places';
-import type { Pose } from '../../model/pose';
+import { dipsOf, type Dip } from '../../model/dips';
 import type { Warning } from '../../model/report';
 import { done, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
@@ -33,19 +33,22 @@ export interface Shown {
 export const shown = signal<Shown | undefined>(undefined);
 type Figures = Pick<Shown, 'coverage' | 'stretchP95'>;
 
-/** Previews of poses that have the same `of`: everything in the spec but the pose. */
-const seen = signal<{ of: string; figures: ReadonlyMap<Pose, Figures> }>({
+/** Previews of dips that have the same `of`: everything in the spec but the pose and the depth. */
+const seen = signal<{ of: string; figures: ReadonlyMap<string, Figures> }>({
   of: '',
   figures: new Map(),
 });
 
-/** The preview of a pose; undefined if there was none since something else changed. */
-export const figuresOf = (pose: Pose): Figures | undefined => seen.value.figures.get(pose);
+const keyOf = ({ pose, depth_mm }: Dip): string => JSON.stringify([pose, depth_mm ?? null]);
 
-function keepFigures({ pose: _, ...others }: SimulateSpecInput, pose: Pose, figures: Figures) {
+/** The preview of a dip; undefined if there was none since something else changed. */
+export const figuresOf = (dip: Dip): Figures | undefined => seen.value.figures.get(keyOf(dip));
+
+function keepFigures(spec: SimulateSpecInput, dip: Dip, figures: Figures) {
+  const { pose: _, depthMm: __, ...others } = spec;
   const of = JSON.stringify(others);
   const known = of === seen.value.of ? seen.value.figures : [];
-  seen.value = { of, figures: new Map([...known, [pose, figures]]) };
+  seen.value = { of, figures: new Map([...known, [keyOf(dip), figures]]) };
 }
 
 /** Why there is no preview, if the input is the reason (for example, the object is beside the film). */
@@ -156,7 +159,7 @@ class PreviewRequester {
     this.asking.abort();
     this.asking = new AbortController();
     const { signal: abortSignal } = this.asking;
-    const { pose } = draft.value;
+    const dip = draft.value;
     const simulate = simulateOf(draft.value, inputs, centre_mm.value);
     const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
@@ -167,8 +170,21 @@ class PreviewRequester {
     isComputing.value = false;
     if (!answer.ok) return this.refuse(answer.failure);
     if (!places.ok) return;
-    keepFigures(spec, pose, answer.value);
+    keepFigures(spec, dip, answer.value);
     this.show(answer.value, places.value);
+    return this.askForOthers(inputs, abortSignal);
+  }
+
+  /** Previews the other dips of which there is no preview yet. */
+  private async askForOthers(inputs: Inputs, abortSignal: AbortSignal): Promise<void> {
+    for (const dip of dipsOf(draft.value)) {
+      if (figuresOf(dip)) continue;
+      const simulate = simulateOf({ ...draft.value, ...dip }, inputs, centre_mm.value);
+      const spec = partOf(simulate, inputs);
+      const answer = await daemon.preview(spec, abortSignal);
+      if (abortSignal.aborted) return;
+      if (answer.ok) keepFigures(spec, dip, answer.value);
+    }
   }
 
   /** Returns the places of the spec's model, which is read again if it is another one. */

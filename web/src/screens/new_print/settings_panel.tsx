@@ -1,4 +1,5 @@
 import * as rules from '../../api/rules';
+import { dipsOf } from '../../model/dips';
 import { filmOf, kFilmChoices } from '../../model/film';
 import { limitsOf } from '../../model/limits';
 import { Choice, NumberField, TextField } from '../../ui/controls';
@@ -93,7 +94,8 @@ function FilmChoice() {
 /** Settings whose defaults are usually right. */
 export function MorePanel() {
   if (!shape.value) return null;
-  const { model, speed_mm_per_s, depth_mm, name } = draft.value;
+  const { model, speed_mm_per_s, depth_mm, name, before } = draft.value;
+  const isPlan = dipsOf(draft.value).length > 1;
   return (
     <details>
       <summary>More settings</summary>
@@ -105,17 +107,14 @@ export function MorePanel() {
       />
       <div class="row">
         <NumberField
-          label="Depth"
+          key={before.length}
+          label={isPlan ? `Depth of dip ${before.length + 1}` : 'Depth'}
           {...limitsOf(rules.SimulateSpec.depthMm)}
           placeholder="whole object"
           value={depth_mm}
           digits={3}
           onValue={(value) => change({ depth_mm: value })}
-          onEmpty={() => {
-            const { depth_mm: _, ...rest } = draft.value;
-            draft.value = rest;
-            change({});
-          }}
+          onEmpty={() => change({ depth_mm: undefined })}
         />
         <NumberField
           label="Dip speed"

@@ -2,7 +2,7 @@ import { signal } from '@preact/signals';
 import { jobs as jobsApi } from '../../api/services';
 import { upload } from '../../api/uploads';
 import { remedyForMissing } from '../../model/arrangement';
-import { posesOf } from '../../model/dips';
+import { dipsOf } from '../../model/dips';
 import type { Pose } from '../../model/pose';
 import { done, refused, type Failure, type Result } from '../../model/result';
 import { go } from '../../route';
@@ -99,7 +99,9 @@ function obstacle(): string | undefined {
   if (!shape.value) return 'Drop a model, or choose a sample';
   const remedy = remedyForMissing(arrangement.value.missing);
   if (remedy) return remedy;
-  const poses = calibrated.value ? [calibrated.value.pose] : posesOf(draft.value);
+  const poses = calibrated.value
+    ? [calibrated.value.pose]
+    : dipsOf(draft.value).map(({ pose }) => pose);
   const beside = poses.findIndex(isBeside);
   if (beside >= 0)
     return `The object is beside the film${poses.length > 1 ? ` in dip ${beside + 1}` : ''}. Move it over the film`;
@@ -113,7 +115,7 @@ export function Submit() {
   const errors = useFormErrors();
   if (sending.value) return <Underway {...sending.value} />;
   const why = obstacle() ?? remedyOf(errors);
-  const count = posesOf(draft.value).length;
+  const count = dipsOf(draft.value).length;
   return (
     <div class="submit">
       {failure.value && (

@@ -1,4 +1,4 @@
-/** Undo and redo for the dips' poses, the size and the picture of a new print. */
+/** Undo and redo for the dips, the size and the picture of a new print. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Dips } from '../../model/dips';
 import { change, draft, shape } from './draft';
@@ -11,10 +11,11 @@ interface Step extends Dips {
   scale: number;
 }
 
-const kParts = ['layer', 'pose', 'before', 'after', 'scale'] as const;
-const stepOf = ({ layer, pose, before, after, scale }: Step): Step => ({
+const kParts = ['layer', 'pose', 'depth_mm', 'before', 'after', 'scale'] as const;
+const stepOf = ({ layer, pose, depth_mm, before, after, scale }: Step): Step => ({
   layer,
   pose,
+  depth_mm,
   before,
   after,
   scale,

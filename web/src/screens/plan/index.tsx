@@ -2,6 +2,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { artifactAddress, imageAddress } from '../../api/services';
 import type { Job, PlannedDip } from '../../api/types';
 import { beginnings } from '../../events';
+import { againPath, jobPath } from '../../route';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
 import { dipText, withoutDip } from '../../ui/job_text';
@@ -21,6 +22,11 @@ export function PlanView({ job }: { job: Job }) {
       {next ? <Next plan={job} dip={next} dips={now.dips.length} /> : <AllDone />}
       <section aria-labelledby="dips-title">
         <h2 id="dips-title">Dips</h2>
+        {may('MAKER') && now.dips.every(({ step }) => step !== 'DONE') && (
+          <p>
+            <a href={againPath(job.name)}>Change the order or the poses</a>
+          </p>
+        )}
         <ol class="plan">
           {now.dips.map((dip) => (
             <DipRow key={dip.immersion} plan={job} dip={dip} isNext={dip === next} />

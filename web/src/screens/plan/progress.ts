@@ -17,7 +17,6 @@ export async function read(plan: string): Promise<void> {
 /** Keeps the progress of a plan up to date until the returned function is called. */
 export function follow(plan: string): () => void {
   let timer: number | undefined;
-  progress.value = undefined;
   void read(plan);
   const end = on('job', (data) => {
     if ((data as { event?: JobEvent }).event?.kind === 'PROGRESS') return;
