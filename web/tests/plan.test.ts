@@ -1,10 +1,11 @@
 import { describe, expect, test } from 'vitest';
-import type { Job, PlannedDip, PlanProgress } from '../src/api/types';
+import type { Job, PlannedDip, PlanProgress, Rig } from '../src/api/types';
 import {
   actionText,
   calibration,
   filesOf,
   layout,
+  needsHoming,
   nextOf,
   pageOf,
   roleFor,
@@ -75,6 +76,15 @@ test('a step needs the role that the daemon asks for', () => {
     (step) => roleFor(dip(step)),
   );
   expect(roles).toEqual(['OPERATOR', 'MAKER', 'MAKER', 'OPERATOR', 'VIEWER', 'OPERATOR']);
+});
+
+test('the rig is homed before a dip is calibrated, if it has an axis', () => {
+  const rig = (homed: boolean, axis?: object) => ({ homed, axis }) as Rig;
+  expect(needsHoming(dip('CALIBRATE'), rig(false, {}))).toBe(true);
+  expect(needsHoming(dip('CALIBRATE'), rig(true, {}))).toBe(false);
+  expect(needsHoming(dip('CALIBRATE'), rig(false))).toBe(false);
+  expect(needsHoming(dip('CALIBRATE'), undefined)).toBe(false);
+  expect(needsHoming(dip('LAY_OUT'), rig(false, {}))).toBe(false);
 });
 
 test('the next dip is the one that the daemon names; none if all are done', () => {

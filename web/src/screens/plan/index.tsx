@@ -3,13 +3,14 @@ import { artifactAddress, imageAddress } from '../../api/services';
 import type { Job, PlannedDip } from '../../api/types';
 import { beginnings } from '../../events';
 import { againPath, jobPath } from '../../route';
+import { rig } from '../../state/rig';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
 import { dipText, withoutDip } from '../../ui/job_text';
 import { DipRow, PdfLink } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
-import { actionText, nextOf, pageOf, roleFor } from './steps';
+import { actionText, needsHoming, nextOf, pageOf, roleFor } from './steps';
 
 /** A computed plan: its next step, and all dips. */
 export function PlanView({ job }: { job: Job }) {
@@ -54,7 +55,8 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     await take(plan, dip);
     setBusy(false);
   };
-  const page = isBusy ? undefined : pageOf(dip);
+  const isHomingFirst = needsHoming(dip, rig.value) && !isBusy;
+  const page = isHomingFirst ? '#/rig' : isBusy ? undefined : pageOf(dip);
   const isAllowed = may(roleFor(dip));
   return (
     <section class="dip next" aria-labelledby="next-title">
@@ -73,9 +75,15 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
           <PdfLink dip={dip} />
         </p>
       )}
+      {isHomingFirst && (
+        <p class="warning">
+          The rig is not homed. Arm and home it before you calibrate, because homing makes a
+          calibration invalid.
+        </p>
+      )}
       {page && isAllowed ? (
         <a class="button primary large" href={page}>
-          {actionText(dip)}
+          {isHomingFirst ? 'Prepare the rig' : actionText(dip)}
         </a>
       ) : (
         <Button kind="primary" disabled={!isAllowed} onPress={act}>

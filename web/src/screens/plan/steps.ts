@@ -1,5 +1,5 @@
 /** The steps of a plan's dips, as jobs and links. Without DOM. */
-import type { Job, JobInput, PlannedDip, PlanProgress, PlanSpec, Role } from '../../api/types';
+import type { Job, JobInput, PlannedDip, PlanProgress, PlanSpec, Rig, Role } from '../../api/types';
 import { jobPath } from '../../route';
 import { numberOf, dipText } from '../../ui/job_text';
 import { pagesOf } from '../job/pages';
@@ -37,6 +37,10 @@ const kActions: Partial<Record<Step, string>> = {
 
 export const actionText = (dip: PlannedDip): string =>
   kActions[dip.step] ?? `Follow job ${numberOf(dip.job)}`;
+
+/** True if the rig must be homed before the dip is calibrated, because homing makes calibrations invalid. */
+export const needsHoming = ({ step }: PlannedDip, rig: Rig | undefined): boolean =>
+  step === 'CALIBRATE' && rig?.axis !== undefined && !rig.homed;
 
 /** The role that the step needs. */
 export const roleFor = ({ step }: PlannedDip): Role => {
