@@ -201,7 +201,7 @@ const journey = async (width: number): Promise<void> => {
       await page.getByRole('link', { name: 'spot_triangulated', exact: true }).click();
     }
     await computeDip(page);
-    if (number === 1) await look(person, 'plan-computed');
+    await look(person, `plan-computed-${number}`);
     await go(page, /^Dip$/);
     await dip(page);
     if (number === 2) await picture(person, 'plan-dip');

@@ -90,7 +90,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
           {isBusy ? 'Working…' : actionText(dip)}
         </Button>
       )}
-      {dip.step === 'CALIBRATE' && (
+      {dip.step === 'CALIBRATE' && !isHomingFirst && (
         <p class="quiet">
           The camera must see the object. If it is near the water, raise it on the{' '}
           <a href="#/rig">Rig page</a> first.
