@@ -110,7 +110,9 @@ async function expectDips(page: Page, depths_mm: number[]): Promise<void> {
     .poll(() => dipList(page).allTextContents(), kLong)
     .toEqual(
       depths_mm.map((mm, k) =>
-        expect.stringMatching(new RegExp(`^Dip ${k + 1}reach .* %, stretch .* ×, ${mm} mm deep$`)),
+        expect.stringMatching(
+          new RegExp(`^Dip ${k + 1}reach .* %, stretch .* ×, ${mm}\\smm deep$`),
+        ),
       ),
     );
   await expect

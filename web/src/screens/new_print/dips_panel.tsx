@@ -92,7 +92,7 @@ function Dip({ dip, at, isLast, move }: DipProps) {
       </button>
       <span class="quiet">
         {figuresText(dip) ?? anglesText(dip)}
-        {dip.depth_mm !== undefined && `, ${dip.depth_mm} mm deep`}
+        {dip.depth_mm !== undefined && `, ${dip.depth_mm}\u00a0mm deep`}
       </span>
       {kMoves.map(({ by, icon }) => (
         <button
