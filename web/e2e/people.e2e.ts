@@ -78,7 +78,7 @@ test('the first screen is small and shows the first step', async () => {
   const took_ms = Date.now() - begun;
   await person.page.waitForLoadState('load');
   const total = sizes.reduce((sum, size) => sum + size, 0);
-  expect(total).toBeLessThan(300_000);
+  expect(total).toBeLessThan(80_000);
   expect(total).toBeGreaterThan(1000);
   console.log(`first screen: ${Math.round(total / 1000)} kB, ${took_ms} ms`);
   expect(person.complaints).toEqual([]);

@@ -5,6 +5,7 @@ import { formatFactor, formatShare } from '../../model/units';
 import { Icon } from '../../ui/icon';
 import { calibrated } from './calibration';
 import { change, draft } from './draft';
+import { view } from './mode';
 import { figuresOf } from './preview';
 import { followThumbnails } from './thumbnails';
 
@@ -87,7 +88,7 @@ function Dip({ dip, at, isLast, move }: DipProps) {
         aria-pressed={isSelected}
         onClick={() => change(dips.select(draft.value, at))}
       >
-        <canvas width={112} height={112} aria-hidden="true" />
+        {view.value && <canvas width={112} height={112} aria-hidden="true" />}
         Dip {at + 1}
       </button>
       <span class="quiet">
