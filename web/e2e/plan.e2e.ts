@@ -199,8 +199,8 @@ const journey = async (width: number): Promise<void> => {
       await look(person, 'plan-not-homed');
       await go(page, 'Prepare the rig');
       await prepareRig(page, 'Reset');
-      await page.getByRole('link', { name: 'Jobs' }).click();
-      await page.getByRole('link', { name: 'spot_triangulated', exact: true }).click();
+      await picture(person, 'plan-rig');
+      await page.getByRole('link', { name: 'Back to the plan' }).click();
     }
     await computeDip(page);
     await look(person, `plan-computed-${number}`);

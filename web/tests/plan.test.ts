@@ -8,6 +8,7 @@ import {
   needsHoming,
   nextOf,
   pageOf,
+  rigPath,
   roleFor,
   simulation,
   type Step,
@@ -64,6 +65,7 @@ describe('the jobs of a step', () => {
 
 test('other steps are done on their pages', () => {
   expect(pageOf(dip('DIP', { simulateJob: 'jobs/9' }))).toBe('#/rig?job=9');
+  expect(rigPath(plan)).toBe('#/rig?plan=7');
   expect(pageOf(dip('CONFIRM', { job: 'jobs/11' }))).toBe('#/rig');
   expect(pageOf(dip('WAIT', { job: 'jobs/12' }))).toBe('#/jobs/12');
   expect(actionText(dip('WAIT', { job: 'jobs/12' }))).toContain('12');

@@ -10,7 +10,7 @@ import { dipText, withoutDip } from '../../ui/job_text';
 import { DipRow, PdfLink } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
-import { actionText, needsHoming, nextOf, pageOf, roleFor } from './steps';
+import { actionText, needsHoming, nextOf, pageOf, rigPath, roleFor } from './steps';
 
 /** A computed plan: its next step, and all dips. */
 export function PlanView({ job }: { job: Job }) {
@@ -56,7 +56,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     setBusy(false);
   };
   const isHomingFirst = needsHoming(dip, rig.value) && !isBusy;
-  const page = isHomingFirst ? '#/rig' : isBusy ? undefined : pageOf(dip);
+  const page = isHomingFirst ? rigPath(plan) : isBusy ? undefined : pageOf(dip);
   const isAllowed = may(roleFor(dip));
   return (
     <section class="dip next" aria-labelledby="next-title">
@@ -93,7 +93,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
       {dip.step === 'CALIBRATE' && !isHomingFirst && (
         <p class="quiet">
           The camera must see the object. If it is near the water, raise it on the{' '}
-          <a href="#/rig">Rig page</a> first.
+          <a href={rigPath(plan)}>Rig page</a> first.
         </p>
       )}
       {!isAllowed && (

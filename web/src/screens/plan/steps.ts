@@ -55,6 +55,9 @@ export function pageOf(dip: PlannedDip): string | undefined {
   return dip.step === 'WAIT' ? jobPath(dip.job) : undefined;
 }
 
+/** The page on which the rig is prepared for a dip of the plan. */
+export const rigPath = ({ name }: Job): string => `#/rig?plan=${numberOf(name)}`;
+
 /** The page that begins the dip with the film image of its simulation. */
 export const dipPath = ({ simulateJob }: PlannedDip): string =>
   `#/rig?job=${numberOf(simulateJob)}`;

@@ -3,7 +3,7 @@ import * as rules from '../../api/rules';
 import { rig as api } from '../../api/services';
 import type { Lease, Rig } from '../../api/types';
 import { formatSeconds } from '../../model/units';
-import { route } from '../../route';
+import { jobPath, route } from '../../route';
 import {
   breakLease,
   command,
@@ -59,7 +59,7 @@ export function RigScreen() {
   );
 }
 
-/** The running dip, the outcome of the last dip, or a form to start one. */
+/** The running dip, the outcome of the last dip, a form to start one, or the way back to a plan. */
 function Dipping({ dip }: { dip: string }) {
   const from = route.value.query.get('job');
   const [last, setLast] = useState(dip);
@@ -68,8 +68,18 @@ function Dipping({ dip }: { dip: string }) {
   }, [dip]);
   if (dip) return <DipGuide name={dip} />;
   if (last) return <DipEnd name={last} again={() => setLast('')} />;
-  return from ? <BeginDip simulateJob={`jobs/${from}`} /> : null;
+  if (from) return <BeginDip simulateJob={`jobs/${from}`} />;
+  const plan = route.value.query.get('plan');
+  return plan && <BackTo plan={`jobs/${plan}`} />;
 }
+
+const BackTo = ({ plan }: { plan: string }) => (
+  <p>
+    <a class="button" href={jobPath(plan)}>
+      Back to the plan
+    </a>
+  </p>
+);
 
 function Standing({ now }: { now: Rig }) {
   return (
