@@ -13,7 +13,7 @@ const kPictures = {
   film: 'Film image',
 } as const;
 
-/** One dip of a plan: its pictures, files and state. */
+/** One dip of a plan: its pictures, files and state. The warnings of the next one are beside its step. */
 export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
   const { plan, dip } = props;
   const files = filesOf(plan.name, dip);
@@ -23,11 +23,7 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
         Dip {dip.immersion} <span class={`state ${stateClass(dip)}`}>{stateText(dip)}</span>
       </h3>
       {dip.trouble && !props.isNext && <p class="warning">{dip.trouble}.</p>}
-      {(dip.warnings ?? []).map((warning) => (
-        <p class="warning" key={warning}>
-          {warning}
-        </p>
-      ))}
+      {!props.isNext && <Warnings dip={dip} />}
       <div class="thumbnails">
         {Object.entries(kPictures).map(([kind, text]) => (
           <figure key={kind}>
@@ -49,6 +45,18 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
     </li>
   );
 }
+
+/** What is wrong with the dip or with its film. */
+export const Warnings = ({ dip: { trouble, warnings = [] } }: { dip: PlannedDip }) => (
+  <>
+    {trouble && <p class="warning">{trouble}.</p>}
+    {warnings.map((warning) => (
+      <p class="warning" key={warning}>
+        {warning}
+      </p>
+    ))}
+  </>
+);
 
 function Downloads({ plan, dip }: { plan: Job; dip: PlannedDip }) {
   const files = filesOf(plan.name, dip);

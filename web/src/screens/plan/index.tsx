@@ -7,7 +7,7 @@ import { rig } from '../../state/rig';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
 import { dipText, withoutDip } from '../../ui/job_text';
-import { DipRow, PdfLink } from './dip_row';
+import { DipRow, PdfLink, Warnings } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
 import { actionText, needsHoming, nextOf, pageOf, rigPath, roleFor } from './steps';
@@ -69,6 +69,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
           {dip.trouble}.
         </p>
       )}
+      <Warnings dip={dip} />
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
       {dip.step === 'DIP' && (
         <p>
