@@ -22,7 +22,6 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
       <h3>
         Dip {dip.immersion} <span class={`state ${stateClass(dip)}`}>{stateText(dip)}</span>
       </h3>
-      {dip.trouble && !props.isNext && <p class="warning">{dip.trouble}.</p>}
       {!props.isNext && <Warnings dip={dip} />}
       <div class="thumbnails">
         {Object.entries(kPictures).map(([kind, text]) => (
@@ -49,7 +48,11 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
 /** What is wrong with the dip or with its film. */
 export const Warnings = ({ dip: { trouble, warnings = [] } }: { dip: PlannedDip }) => (
   <>
-    {trouble && <p class="warning">{trouble}.</p>}
+    {trouble && (
+      <p class="warning" role="alert">
+        {trouble}.
+      </p>
+    )}
     {warnings.map((warning) => (
       <p class="warning" key={warning}>
         {warning}

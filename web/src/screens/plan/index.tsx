@@ -2,7 +2,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { artifactAddress, imageAddress } from '../../api/services';
 import type { Job, PlannedDip } from '../../api/types';
 import { beginnings } from '../../events';
-import { againPath, jobPath } from '../../route';
+import { againPath } from '../../route';
 import { rig } from '../../state/rig';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
@@ -64,11 +64,6 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
       <p class="instruction" role="status">
         {withoutDip(dip.instruction)}
       </p>
-      {dip.trouble && (
-        <p class="warning" role="alert">
-          {dip.trouble}.
-        </p>
-      )}
       <Warnings dip={dip} />
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
       {dip.step === 'DIP' && (
