@@ -235,7 +235,8 @@ class Document {
               ? " as JSON on a line with a multiple of 8 bytes, then the bytes of `"
               : ": the bytes of `";
       return {{"description", method.output_type()->name() + before + raw.field() + "`."},
-              {"content", content(raw.media_type())}};
+              {"content", content(raw.media_type())},
+              {"x-message", std::move(schema)}};
     }
     if (!method.server_streaming()) {
       return {{"description", "Done."},

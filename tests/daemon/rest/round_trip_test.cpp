@@ -92,9 +92,9 @@ TEST(RawBody, BeginsWithTheOtherFieldsIfTheMethodWantsIt) {
     const std::size_t end = bytes.find('\n');
     EXPECT_EQ(end % 8, 7U);
     EXPECT_EQ(bytes.substr(end + 1), preview.vertex_map());
-    const auto json = nlohmann::json::parse(bytes.substr(0, end));
-    EXPECT_EQ(json.at("warnings").at(0).at("message"), std::string(length, '\n'));
-    EXPECT_EQ(json.at("vertexMap"), "");
+    const auto others = nlohmann::json::parse(bytes.substr(0, end));
+    EXPECT_EQ(others.at("warnings").at(0).at("message"), std::string(length, '\n'));
+    EXPECT_EQ(others.at("vertexMap"), "");
   }
 }
 
