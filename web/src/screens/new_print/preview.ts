@@ -172,15 +172,14 @@ class PreviewRequester {
     if (!places.ok) return;
     keepFigures(spec, dip, answer.value);
     this.show(answer.value, places.value);
-    return this.askForOthers(inputs, abortSignal);
+    await this.askForOthers(inputs, abortSignal);
   }
 
   /** Previews the other dips of which there is no preview yet. */
   private async askForOthers(inputs: Inputs, abortSignal: AbortSignal): Promise<void> {
     for (const dip of dipsOf(draft.value)) {
       if (figuresOf(dip)) continue;
-      const simulate = simulateOf({ ...draft.value, ...dip }, inputs, centre_mm.value);
-      const spec = partOf(simulate, inputs);
+      const spec = partOf(simulateOf({ ...draft.value, ...dip }, inputs, centre_mm.value), inputs);
       const answer = await daemon.preview(spec, abortSignal);
       if (abortSignal.aborted) return;
       if (answer.ok) keepFigures(spec, dip, answer.value);

@@ -45,21 +45,23 @@ export function DipRow(props: { plan: Job; dip: PlannedDip; isNext: boolean }) {
   );
 }
 
-/** What is wrong with the dip or with its film. */
-export const Warnings = ({ dip: { trouble, warnings = [] } }: { dip: PlannedDip }) => (
-  <>
-    {trouble && (
-      <p class="warning" role="alert">
-        {trouble}.
-      </p>
-    )}
-    {warnings.map((warning) => (
-      <p class="warning" key={warning}>
-        {warning}
-      </p>
-    ))}
-  </>
-);
+/** What is wrong with the dip or with its film. The role is that of the trouble, which begins while the page is open. */
+export function Warnings({ dip, role }: { dip: PlannedDip; role?: 'alert' }) {
+  return (
+    <>
+      {dip.trouble && (
+        <p class="warning" role={role}>
+          {dip.trouble}.
+        </p>
+      )}
+      {(dip.warnings ?? []).map((warning) => (
+        <p class="warning" key={warning}>
+          {warning}
+        </p>
+      ))}
+    </>
+  );
+}
 
 function Downloads({ plan, dip }: { plan: Job; dip: PlannedDip }) {
   const files = filesOf(plan.name, dip);

@@ -64,7 +64,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
       <p class="instruction" role="status">
         {withoutDip(dip.instruction)}
       </p>
-      <Warnings dip={dip} />
+      <Warnings dip={dip} role="alert" />
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}
       {dip.step === 'DIP' && (
         <p>
