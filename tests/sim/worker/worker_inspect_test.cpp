@@ -36,10 +36,9 @@ TEST_F(InspectWorker, StatesEachMaterialAndShowsIt) {
   write_square(kMaterials);
   const Ended ended = testing::run(inspect({"--scale", "2"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
-  for (const char* words :
-       {"OBJ, 4 vertices, 2 triangles", "size 60 x 40 x 0 mm at scale 2",
-        "material \"skin\", 1 triangles: texture texture.png, 64 x 32 px",
-        "material \"red\", 1 triangles: #ff0000"})
+  for (const char* words : {"OBJ, 4 vertices, 2 triangles", "size 60 x 40 x 0 mm at scale 2",
+                            "material \"skin\", 1 triangles: texture texture.png, 64 x 32 px",
+                            "material \"red\", 1 triangles: #ff0000"})
     EXPECT_NE(ended.out.find(words), std::string::npos) << words << " in " << ended.out;
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"model.glb", "report.json"}));
 
