@@ -86,7 +86,7 @@ std::string afterwards(const Plan& plan) {
     return "take the object out, rinse off the rest of the film, and let it dry";
   return fmt::format(
       "dip {} of {} is done: skim the rest of the film off the water, take the object out, rinse "
-      "it and let it dry; then continue with the plan{}",
+      "it and let it dry; the plan{} states what comes next",
       plan.immersion, plan.immersions, plan.plan_job.empty() ? "" : " " + plan.plan_job);
 }
 

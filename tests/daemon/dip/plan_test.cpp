@@ -107,7 +107,7 @@ TEST(DipPlan, DipOfAPlanNamesItsNumberAndWhatComesNext) {
     EXPECT_TRUE(instruction(step, plan).starts_with("dip 2 of 3: ")) << instruction(step, plan);
   EXPECT_EQ(afterwards(plan),
             "dip 2 of 3 is done: skim the rest of the film off the water, take the object out, "
-            "rinse it and let it dry; then continue with the plan jobs/7");
+            "rinse it and let it dry; the plan jobs/7 states what comes next");
 }
 
 TEST(DipPlan, EveryStepHasAnInstructionAndAdvice) {
