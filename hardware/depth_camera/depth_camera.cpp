@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "sim/base/input_file.h"
 
@@ -67,10 +68,27 @@ class DisconnectListener : public openni::OpenNI::DeviceDisconnectedListener {
   std::atomic<bool> happened_ = false;
 };
 
+/// A device and its depth stream.
+struct Opened {
+  openni::Device device;
+  openni::VideoStream stream;
+};
+
+/// Keeps a recording open. OpenNI 2.2 plays a recording in a thread that goes through the streams
+/// of the device without a lock, and crashes if one is destroyed meanwhile.
+void keep_until_exit(std::unique_ptr<Opened> opened) {
+  static auto* const kept = new std::vector<std::unique_ptr<Opened>>;  // never destroyed
+  kept->push_back(std::move(opened));
+}
+
 class OpenNiCamera : public DepthCamera {
  public:
   ~OpenNiCamera() override {
     finish_recording();
+    if (device_.isValid() && device_.isFile()) {
+      keep_until_exit(std::move(opened_));
+      return;
+    }
     stream_.destroy();
     device_.close();
   }
@@ -93,8 +111,9 @@ class OpenNiCamera : public DepthCamera {
   [[nodiscard]] tl::unexpected<Error> no_frame() const;
   [[nodiscard]] Result<std::optional<DepthFrame>> read();
 
-  openni::Device device_;
-  openni::VideoStream stream_;
+  std::unique_ptr<Opened> opened_ = std::make_unique<Opened>();
+  openni::Device& device_ = opened_->device;
+  openni::VideoStream& stream_ = opened_->stream;
   openni::Recorder recorder_;
   std::unique_ptr<DisconnectListener> disconnect_listener_;
   SourceInfo info_;
