@@ -68,6 +68,10 @@ std::string model_summary_text(const ModelSummary& summary) {
                        summary.likely_unit().name(), shortest_text(summary.likely_unit().mm()));
   }
   for (const ModelSummary::Material& material : summary.materials()) out += material_text(material);
+  for (const ModelSummary::Companion& companion : summary.companions()) {
+    out += fmt::format("file {}: {}\n", one_line(companion.name()),
+                       companion.is_missing() ? "missing" : "found");
+  }
   for (const std::string& phrase : summary.not_understood())
     out += fmt::format("not understood: {}\n", one_line(phrase));
   if (summary.shown_triangles() < summary.triangles())

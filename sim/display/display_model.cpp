@@ -13,19 +13,13 @@
 namespace hydroprint::display {
 namespace {
 
-std::string name_of(const mesh::Model& model, std::size_t triangle) {
-  const int m = triangle < model.triangle_material.size() ? model.triangle_material[triangle] : -1;
-  const bool is_known = m >= 0 && static_cast<std::size_t>(m) < model.materials.size();
-  return is_known ? model.materials[m].name : std::string();
-}
-
 /// Returns a part without triangles for each ink, by its index.
 std::map<int, Part> parts_of(const mesh::Model& model, const image::Paint& paint) {
   std::map<int, Part> out;
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     const auto [at, is_new] = out.try_emplace(paint.ink_index(t));
     if (!is_new) continue;
-    at->second.name = name_of(model, t);
+    if (const mesh::Material* material = model.material_of(t)) at->second.name = material->name;
     at->second.colour = paint.ink(t).colour;
     at->second.picture = paint.ink(t).texture;
   }

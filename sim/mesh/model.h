@@ -39,6 +39,12 @@ struct Material {
   float alpha_cutoff = 0.5F;
 };
 
+/// A material file that a model names.
+struct MaterialFile {
+  std::filesystem::path path;  ///< resolved against the model's folder
+  bool is_missing = false;     ///< it does not exist, and triangles need it
+};
+
 /// A model as read: geometry in mm in the object frame O, and the sources of its colour.
 /// Invariants: indices in range, every coordinate finite, at least one triangle with an area.
 struct Model {
@@ -49,12 +55,19 @@ struct Model {
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  ///< per triangle, v up; empty: none
   std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
+  std::vector<MaterialFile> material_files;
   std::vector<Eigen::Vector3f> vertex_colours;    ///< sRGB-coded [0, 1]; empty: none
   std::vector<Eigen::Vector3f> triangle_colours;  ///< likewise, where vertices have none
   /// What seems to define colours but could not be understood, one phrase each with its place:
   /// `material "skin": KHR_materials_pbrSpecularGlossiness`.
   std::vector<std::string> not_understood;
   Warnings warnings;  ///< assumptions made while reading
+
+  /// The material of a triangle; null if it has none.
+  [[nodiscard]] const Material* material_of(std::size_t triangle) const {
+    const int m = triangle < triangle_material.size() ? triangle_material[triangle] : -1;
+    return m >= 0 && static_cast<std::size_t>(m) < materials.size() ? &materials[m] : nullptr;
+  }
 };
 
 }  // namespace hydroprint::mesh

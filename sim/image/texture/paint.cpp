@@ -330,9 +330,8 @@ class PaintLoader {
   void warn_of_materials() {
     std::size_t untextured = 0;
     for (std::size_t t = 0; t < model_.triangle_material.size(); ++t) {
-      const int m = model_.triangle_material[t];
-      if (m < 0 || static_cast<std::size_t>(m) >= model_.materials.size()) continue;
-      if (has_texture(model_.materials[m]) && !has_uvs(t)) ++untextured;
+      const mesh::Material* material = model_.material_of(t);
+      if (material != nullptr && has_texture(*material) && !has_uvs(t)) ++untextured;
     }
     if (untextured > 0) {
       warn("uvs_missing_in_part",
@@ -355,9 +354,8 @@ class PaintLoader {
       if (paint_.inks_[paint_.ink_of_triangle_[t]].is_known) continue;
       ++uncoloured;
       missing_mm2 += mm2;
-      const int m = t < model_.triangle_material.size() ? model_.triangle_material[t] : -1;
-      if (m >= 0 && static_cast<std::size_t>(m) < model_.materials.size() && names.size() < 3)
-        names.insert("\"" + model_.materials[m].name + "\"");
+      const mesh::Material* material = model_.material_of(t);
+      if (material != nullptr && names.size() < 3) names.insert("\"" + material->name + "\"");
     }
     if (uncoloured == 0 || uncoloured == model_.triangles.size()) return;
     std::string message =

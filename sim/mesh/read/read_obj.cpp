@@ -134,6 +134,7 @@ class ObjImporter {
     if (std::filesystem::file_size(path, error) == 0 && !error) return {};
     HP_ASSIGN_OR_RETURN(std::string text, read_file(path));
     HP_ASSIGN_OR_RETURN(MtlFile file, parse_mtl(without_byte_order_mark(text), path));
+    model_.material_files.push_back({path, false});
     for (auto& material : file.materials) {
       library_.folder_of.try_emplace(material.name, path.parent_path());
       library_.names_by_key[name_key(material.name)].push_back(material.name);
@@ -272,6 +273,8 @@ class ObjImporter {
              fmt::format("the material file {} was not found; no face needs it",
                          missing_files_.front()));
     } else if (!missing_files_.empty()) {
+      for (const std::string& name : missing_files_)
+        model_.material_files.push_back({model_.path.parent_path() / name, true});
       warn(
           "material_file_missing",
           fmt::format("the material file {} was not found, so its colours and textures are missing",

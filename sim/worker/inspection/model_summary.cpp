@@ -5,8 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "sim/image/io/colour.h"
@@ -29,10 +32,13 @@ std::string hex(const Eigen::Vector3f& linear) {
                      image::srgb8_from_linear(linear.y()), image::srgb8_from_linear(linear.z()));
 }
 
-/// Returns the texture's file as the model's folder names it; empty for a texture in the model.
-std::string texture_name(const mesh::Model& model, const mesh::Material& material) {
-  if (!material.texture_bytes.empty()) return {};
-  return utf8(material.texture.lexically_proximate(model.path.parent_path()).generic_string());
+/// Returns a file's name relative to the model's folder.
+std::string name_beside(const mesh::Model& model, const std::filesystem::path& file) {
+  return utf8(file.lexically_proximate(model.path.parent_path()).generic_string());
+}
+
+bool has_texture_file(const mesh::Material& material) {
+  return !material.texture.empty() && material.texture_bytes.empty();
 }
 
 void set_colours(const mesh::Model& model, const image::Paint& paint, std::size_t triangle,
@@ -44,7 +50,8 @@ void set_colours(const mesh::Model& model, const image::Paint& paint, std::size_
     out.add_colour_sources(v1::ModelSummary::TEXTURE);
     out.set_texture_width_px(texture.width());
     out.set_texture_height_px(texture.height());
-    if (material != nullptr) out.set_texture(texture_name(model, *material));
+    if (material != nullptr && has_texture_file(*material))
+      out.set_texture(name_beside(model, material->texture));
   }
   if (ink.of_surface) {
     out.add_colour_sources(paint.vertex_colours().empty() ? v1::ModelSummary::TRIANGLE_COLOURS
@@ -56,16 +63,10 @@ void set_colours(const mesh::Model& model, const image::Paint& paint, std::size_
   out.set_colour(hex(ink.colour));
 }
 
-const mesh::Material* material_of(const mesh::Model& model, std::size_t triangle) {
-  const int m = triangle < model.triangle_material.size() ? model.triangle_material[triangle] : -1;
-  const bool is_known = m >= 0 && static_cast<std::size_t>(m) < model.materials.size();
-  return is_known ? &model.materials[m] : nullptr;
-}
-
 void add_materials(const mesh::Model& model, const image::Paint& paint, v1::ModelSummary& out) {
   std::map<std::pair<const mesh::Material*, int>, v1::ModelSummary::Material*> known;
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const mesh::Material* material = material_of(model, t);
+    const mesh::Material* material = model.material_of(t);
     auto& entry = known[{material, paint.ink_index(t)}];
     if (entry == nullptr) {
       entry = out.add_materials();
@@ -73,6 +74,25 @@ void add_materials(const mesh::Model& model, const image::Paint& paint, v1::Mode
       set_colours(model, paint, t, material, *entry);
     }
     entry->set_triangles(entry->triangles() + 1);
+  }
+}
+
+void add_companions(const mesh::Model& model, v1::ModelSummary& out) {
+  std::map<std::string, bool> missing_by_name;
+  for (const mesh::MaterialFile& file : model.material_files)
+    missing_by_name.emplace(name_beside(model, file.path), file.is_missing);
+  std::set<const mesh::Material*> used;
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) used.insert(model.material_of(t));
+  std::error_code error;
+  for (const mesh::Material* material : used) {
+    if (material == nullptr || !has_texture_file(*material)) continue;
+    missing_by_name.emplace(name_beside(model, material->texture),
+                            !std::filesystem::is_regular_file(material->texture, error));
+  }
+  for (const auto& [name, is_missing] : missing_by_name) {
+    v1::ModelSummary::Companion& companion = *out.add_companions();
+    companion.set_name(name);
+    companion.set_is_missing(is_missing);
   }
 }
 
@@ -106,6 +126,7 @@ v1::ModelSummary summary_of(const mesh::Model& model, const image::Paint& paint,
   out.set_has_texture_coordinates(!model.corner_uvs.empty());
   out.set_has_colour(paint.has_colour());
   add_materials(model, paint, out);
+  add_companions(model, out);
   for (const std::string& phrase : model.not_understood) out.add_not_understood(utf8(phrase));
   out.set_shown_triangles(static_cast<std::int32_t>(shown.triangles()));
   for (const Warnings* warnings : {&model.warnings, &paint.warnings(), &shown.warnings}) {

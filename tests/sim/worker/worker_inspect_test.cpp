@@ -75,6 +75,28 @@ TEST_F(InspectWorker, RefusesWithTheWordsOfSimulate) {
   }
 }
 
+TEST_F(InspectWorker, NamesTheFilesOfItsColoursAndThoseThatAreMissing) {
+  using nlohmann::json;
+  const auto companions = [this](const Arguments& more) {
+    const Ended ended = testing::run(inspect(more));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    const auto report = json::parse(content(out() + "/report.json"));
+    std::filesystem::remove_all(out());
+    return report.at("companions");
+  };
+  const auto file = [](const char* name, bool is_missing) {
+    return json{{"name", name}, {"is_missing", is_missing}};
+  };
+  write_square(
+      "newmtl skin\nmap_Kd Texture.PNG\nnewmtl red\nKd 1 0 0\nnewmtl other\nmap_Kd no.png");
+  EXPECT_EQ(companions({}), json({file("square.mtl", false), file("texture.png", false)}));
+  write_square("newmtl skin\nmap_Kd maps/absent.png\nnewmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(companions({"--shape-only"}),
+            json({file("maps/absent.png", true), file("square.mtl", false)}));
+  std::filesystem::remove(path("square.mtl"));
+  EXPECT_EQ(companions({"--shape-only"}), json({file("square.mtl", true)}));
+}
+
 TEST_F(InspectWorker, AModelWithoutColourIsShownInWhite) {
   folder.write("square.obj", "v 0 0 0\nv 30 0 0\nv 30 20 0\nf 1 2 3\n");
   const Ended ended = testing::run(inspect());
