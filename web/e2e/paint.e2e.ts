@@ -73,10 +73,22 @@ afterAll(async () => {
 
 type View = (typeof kViews)[number];
 
+/** The solid as the worker shows it. */
+const glbs = new Map<SolidName, string>();
+function glbOf(solid: SolidName): string {
+  const out = join(folder, `${solid}-shown`);
+  if (!glbs.has(solid)) {
+    const args = ['inspect', '--mesh', join(folder, solid), '--out', out];
+    execFileSync(join(bin, 'hydroprint-worker'), args);
+    glbs.set(solid, readFileSync(join(out, 'model.glb')).toString('base64'));
+  }
+  return glbs.get(solid)!;
+}
+
 async function byPage(solid: SolidName, { base_colour, layers }: Case, view: View) {
   const base64 = (name: PictureName) => files[name].toString('base64');
   const drawing: Drawing = {
-    mesh: { name: solid, bytes: kSolids[solid]().toString('base64') },
+    mesh: glbOf(solid),
     layers: layers.map(({ picture, ...rest }) => ({
       ...rest,
       ...(picture ? { picture: base64(picture) } : {}),

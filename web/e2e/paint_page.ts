@@ -1,15 +1,15 @@
 /** Draws paints with the page's materials for paint.e2e.ts: without light, and with an orthographic camera. */
 import { OrthographicCamera, Scene, Vector3, WebGLRenderer } from 'three';
-import { boxOf, centreOf } from '../src/model/mesh';
+import { modelOf } from '../src/engine/model';
+import { centreOf } from '../src/model/mesh';
 import type { Vec3 } from '../src/model/pose';
 import type { PaintLayer } from '../src/paint/layer';
 import { readPicture } from '../src/paint/paint';
 import { PaintedObject } from '../src/paint/painted_object';
-import { readMesh } from '../src/worker/reader';
 
 export interface Drawing {
-  /** Name and bytes (base64) of the mesh's file. */
-  mesh: { name: string; bytes: string };
+  /** The mesh as `inspect` returns it (model.glb), base64. */
+  mesh: string;
   base_colour?: string;
   /** `picture`: a PNG, base64. */
   layers: { layer: PaintLayer; picture?: string; colour?: string }[];
@@ -43,12 +43,10 @@ async function draw(drawing: Drawing): Promise<string> {
   const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true });
   renderer.setSize(pixels, pixels);
   const painted = new PaintedObject(renderer, () => {}, false);
-  const file = new File([bytesOf(drawing.mesh.bytes)], drawing.mesh.name);
-  const read = await readMesh(file);
+  const read = await modelOf(bytesOf(drawing.mesh).buffer);
   if (!read.ok) throw new Error(read.failure.what);
-  const { mesh } = read.value;
-  const box = boxOf(mesh);
-  painted.setMesh(mesh, box, 1, () => ({ colour: [1, 1, 1] }));
+  const { mesh, box } = read.value;
+  painted.setMesh(mesh, box, 1);
   const withPictures = layers.map(async ({ layer, picture, colour }) => ({
     layer,
     colour,

@@ -1,6 +1,6 @@
-import { expect, test } from 'vitest';
+import { afterEach, expect, test, vi } from 'vitest';
 import { previewOf } from '../src/engine/daemon';
-import { placesOf } from '../src/engine/places';
+import { modelOf } from '../src/engine/model';
 
 const joined = (parts: Uint8Array[]): ArrayBuffer => {
   const out = new Uint8Array(parts.reduce((sum, { length }) => sum + length, 0));
@@ -27,20 +27,49 @@ test.each([text(''), text('{"coverage": 1'), text('{}\nabc')])(
   },
 );
 
-/** A binary glTF of two primitives that share their vertices; the second vertex and the last are at one place. */
-function glb(): ArrayBuffer {
-  const positions = Float32Array.of(0, 0, 0, 10, 0, 0, 0, 20, 0, 10, 0, 0);
-  const places = Float32Array.of(0, 1, 2, 1);
-  const indices = Uint32Array.of(0, 1, 2, 2, 3, 0);
-  const views = [positions, places, indices].map(({ buffer }) => new Uint8Array(buffer));
+afterEach(() => vi.unstubAllGlobals());
+
+const kSummary = {
+  format: 'OBJ',
+  scale: 10,
+  lowest_mm: [1000, 0, 0],
+  highest_mm: [1010, 20, 0],
+  has_colour: true,
+  triangles: 2,
+  shown_triangles: 2,
+};
+
+/**
+ * A binary glTF of two primitives that share their vertices; the second vertex and the last are at one place. The first
+ * primitive has a factor, the second a picture. It is what `inspect` writes.
+ */
+function glb(extras: object = kSummary): ArrayBuffer {
+  const floats = (...numbers: number[]) => new Uint8Array(Float32Array.from(numbers).buffer);
+  const views = [
+    floats(0, 0, 0, 10, 0, 0, 0, 20, 0, 10, 0, 0),
+    floats(0, 1, 2, 1),
+    floats(0, 0, 1, 0, 0, 0.75, 1, 0),
+    new Uint8Array(
+      Uint16Array.from({ length: 16 }, (_, i) => (i % 4 === 3 ? 65535 : 1000 * i)).buffer,
+    ),
+    new Uint8Array(Uint32Array.of(0, 1, 2, 2, 3, 0).buffer),
+    Uint8Array.of(7, 8, 9, 0),
+  ];
   let at = 0;
   const bufferViews = views.map(({ length }) => {
     at += length;
     return { buffer: 0, byteOffset: at - length, byteLength: length };
   });
-  const attributes = { POSITION: 0, _PLACE: 1 };
+  const attributes = { POSITION: 0, _PLACE: 1, TEXCOORD_0: 2, COLOR_0: 3 };
+  const unlit = { KHR_materials_unlit: {} };
+  const surface = (more: object) => ({ pbrMetallicRoughness: more, extensions: unlit });
+  const accessor = (bufferView: number, componentType: number, count: number, type: string) => ({
+    ...{ bufferView, componentType, count, type },
+    ...(bufferView === 0 ? { min: [0, 0, 0], max: [10, 20, 0] } : {}),
+    ...(componentType === 5123 ? { normalized: true } : {}),
+  });
   const json = {
-    asset: { version: '2.0' },
+    asset: { version: '2.0', extras },
     extensionsUsed: ['KHR_materials_unlit'],
     scene: 0,
     scenes: [{ nodes: [0] }],
@@ -48,24 +77,25 @@ function glb(): ArrayBuffer {
     meshes: [
       {
         primitives: [
-          { attributes, indices: 2, material: 0 },
-          { attributes, indices: 3 },
+          { attributes, indices: 4, material: 0 },
+          { attributes, indices: 5, material: 1 },
         ],
       },
     ],
-    materials: [{ extensions: { KHR_materials_unlit: {} } }],
+    materials: [
+      surface({ baseColorFactor: [0.25, 0.5, 1, 1] }),
+      surface({ baseColorTexture: { index: 0 } }),
+    ],
+    textures: [{ source: 0, sampler: 0 }],
+    samplers: [{ wrapS: 33071, wrapT: 33648 }],
+    images: [{ bufferView: 5, mimeType: 'image/png' }],
     accessors: [
-      {
-        bufferView: 0,
-        componentType: 5126,
-        count: 4,
-        type: 'VEC3',
-        min: [0, 0, 0],
-        max: [10, 20, 0],
-      },
-      { bufferView: 1, componentType: 5126, count: 4, type: 'SCALAR' },
-      { bufferView: 2, componentType: 5125, count: 3, type: 'SCALAR' },
-      { bufferView: 2, byteOffset: 12, componentType: 5125, count: 3, type: 'SCALAR' },
+      accessor(0, 5126, 4, 'VEC3'),
+      accessor(1, 5126, 4, 'SCALAR'),
+      accessor(2, 5126, 4, 'VEC2'),
+      accessor(3, 5123, 4, 'VEC4'),
+      accessor(4, 5125, 3, 'SCALAR'),
+      { ...accessor(4, 5125, 3, 'SCALAR'), byteOffset: 12 },
     ],
     bufferViews,
     buffers: [{ byteLength: at }],
@@ -82,14 +112,55 @@ function glb(): ArrayBuffer {
   ]);
 }
 
-test('the places of a binary glTF have positions in mm of the object frame', async () => {
-  const read = await placesOf(glb());
-  if (!read.ok) throw new Error(read.failure.what);
-  expect([...read.value.positions]).toEqual([1000, 0, 0, 1010, 0, 0, 1000, 20, 0]);
-  expect([...read.value.corners]).toEqual([0, 1, 2, 2, 1, 0]);
+const kBitmap = { width: 2, height: 2 };
+async function read(bytes: ArrayBuffer) {
+  vi.stubGlobal(
+    'createImageBitmap',
+    vi.fn(async (blob: Blob) => ({
+      ...kBitmap,
+      bytes: [...new Uint8Array(await blob.arrayBuffer())],
+    })),
+  );
+  const model = await modelOf(bytes);
+  if (!model.ok) throw new Error(model.failure.what);
+  return model.value;
+}
+
+test('the places of a model are in mm of the object frame, its mesh and box in units of the file', async () => {
+  const { places, mesh, box, summary } = await read(glb());
+  expect([...places.positions]).toEqual([1000, 0, 0, 1010, 0, 0, 1000, 20, 0]);
+  expect([...places.corners]).toEqual([0, 1, 2, 2, 1, 0]);
+  expect([...mesh.positions]).toEqual([100, 0, 0, 101, 0, 0, 100, 2, 0, 101, 0, 0]);
+  expect([...mesh.indices]).toEqual([0, 1, 2, 2, 3, 0]);
+  expect(box).toEqual({ min: [100, 0, 0], max: [101, 2, 0] });
+  expect(summary).toEqual(kSummary);
+});
+
+test('its colours are in linear light without alpha, and v points up', async () => {
+  const { mesh } = await read(glb());
+  expect([...mesh.colours!.slice(0, 6)]).toEqual([0, 1000, 2000, 4000, 5000, 6000]);
+  expect([...mesh.uvs!]).toEqual([0, 1, 1, 1, 0, 0.25, 1, 1]);
+});
+
+test('each part has its factor, or its picture with its wrap', async () => {
+  const { mesh } = await read(glb());
+  const [tinted, pictured] = mesh.parts;
+  expect(tinted).toEqual({ look: { colour: [0.25, 0.5, 1] }, first: 0, count: 3 });
+  expect(pictured).toMatchObject({ first: 3, count: 3 });
+  expect(pictured!.look).toMatchObject({ colour: [1, 1, 1], wrap: ['clamp', 'mirror'] });
+  expect(pictured!.look.picture).toMatchObject({ ...kBitmap, bytes: [7, 8, 9, 0] });
+});
+
+test('a model without any colour is grey', async () => {
+  const { mesh } = await read(glb({ ...kSummary, has_colour: false }));
+  for (const { look } of mesh.parts) {
+    expect(look.picture).toBeUndefined();
+    expect(new Set(look.colour).size).toBe(1);
+    expect(look.colour[0]).toBeLessThan(1);
+  }
 });
 
 test('bytes that are not a glTF are an error in words', async () => {
-  const read = await placesOf(joined([text('not a model')]));
-  expect(!read.ok && read.failure.what).toBe('the model cannot be shown');
+  const model = await modelOf(joined([text('not a model')]));
+  expect(!model.ok && model.failure.what).toBe('the model cannot be shown');
 });

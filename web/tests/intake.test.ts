@@ -1,7 +1,10 @@
-import { beforeEach, expect, test, vi } from 'vitest';
+import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import type { InspectSpec } from '../src/api/types';
+import type { upload } from '../src/api/uploads';
+import type { Engine } from '../src/engine/engine';
 import { add } from '../src/model/dips';
-import type { Mesh } from '../src/model/mesh';
 import { done, refused } from '../src/model/result';
+import type { Summary } from '../src/model/summary';
 import {
   centre_mm,
   change,
@@ -17,6 +20,8 @@ import {
 } from '../src/screens/new_print/draft';
 import {
   arrangement,
+  cancel,
+  colourless,
   inputsOf,
   problems,
   remove,
@@ -24,30 +29,41 @@ import {
   take,
   waiting,
 } from '../src/screens/new_print/intake';
+import { stage } from '../src/screens/new_print/reading';
+import { shapeOf } from './shapes';
 
-const kTriangle = (more: Partial<Mesh> = {}): Mesh => ({
-  positions: Float32Array.from([0, 0, 0, 9, 0, 0, 0, 9, 0]),
-  indices: Uint32Array.from([0, 1, 2]),
-  parts: [{ material: '', first: 0, count: 3 }],
-  libraries: [],
-  ...more,
-});
-const kMeshes: Record<string, Mesh> = {
-  'bunny.stl': kTriangle(),
-  'spot.obj': kTriangle({
-    uvs: new Float32Array(6),
-    parts: [{ material: 'm', first: 0, count: 3 }],
-    libraries: ['spot.mtl'],
-  }),
+/** What the daemon understands of the files. */
+const kSummaries: Record<string, Partial<Summary>> = {
+  'bunny.stl': { format: 'STL' },
+  'spot.obj': { has_texture_coordinates: true, has_colour: true },
 };
-vi.mock('../src/worker/reader', () => ({
-  readMesh: async ({ name }: File) => {
-    const mesh = kMeshes[name];
-    return mesh
-      ? done({ mesh, box: { min: [0, 0, 0], max: [9, 9, 0] } })
-      : refused('it is damaged');
-  },
+const kCompanions = ['spot.mtl', 'skin.png'];
+
+const asked = vi.hoisted(() => ({
+  read: vi.fn<Engine['read']>(),
+  upload: vi.fn<typeof upload>(),
+  may: vi.fn<() => boolean>(),
 }));
+vi.mock('../src/engine/daemon', () => ({ daemon: { read: asked.read } }));
+vi.mock('../src/api/uploads', () => ({ upload: asked.upload }));
+vi.mock('../src/state/session', () => ({ may: asked.may }));
+
+/** Reads as the worker does: without one of its files, the OBJ has no colours. */
+async function answer({ mesh, extraFiles = [], shapeOnly }: InspectSpec) {
+  const known = kSummaries[mesh.name!];
+  if (!known) return refused('it is damaged', undefined, { reason: 'INPUT_REFUSED' });
+  const there = new Set(extraFiles.map(({ name }) => name));
+  const companions = kCompanions.map((name) => ({ name, is_missing: !there.has(name) }));
+  const isComplete = mesh.name !== 'spot.obj' || companions.every(({ is_missing }) => !is_missing);
+  if (!isComplete && !shapeOnly)
+    return refused('no such file: skin.png', 'Put it there', { reason: 'INPUT_REFUSED' });
+  const { source: _, ...model } = shapeOf({
+    ...known,
+    ...(mesh.name === 'spot.obj' ? { companions } : {}),
+    ...(shapeOnly ? { has_colour: false } : {}),
+  });
+  return done(model);
+}
 
 const kPng = Uint8Array.of(0x89, 0x50, 0x4e, 0x47);
 const file = (name: string, content: BlobPart) =>
@@ -59,7 +75,15 @@ const mtl = () => file('spot.mtl', 'newmtl m\nmap_Kd skin.png\n');
 const names = (files: readonly { name: string }[]) => files.map(({ name }) => name);
 const roles = () => inputsOf(draft.value.files).map(({ role, name }) => `${role} ${name}`);
 
-beforeEach(startOver);
+beforeEach(() => {
+  asked.read.mockReset().mockImplementation(answer);
+  asked.upload
+    .mockReset()
+    .mockImplementation(async (blob) => done(`assets/${(blob as File).name}`));
+  asked.may.mockReset().mockReturnValue(true);
+  startOver();
+});
+afterEach(() => vi.useRealTimers());
 
 test('a picture waits for its model, and is then its texture', async () => {
   await take([picture('cat.png')]);
@@ -83,7 +107,8 @@ test('several pictures wait; the materials of the model choose theirs', async ()
 
 test('a missing texture is named until it is added', async () => {
   await take([obj(), mtl()]);
-  expect(arrangement.value.missing).toEqual([{ name: 'skin.png', by: 'spot.mtl' }]);
+  expect(arrangement.value.missing).toEqual(['skin.png']);
+  expect(colourless.value).toMatchObject([{ name: 'skin.png' }]);
   await take([picture('skin.png')]);
   expect(arrangement.value.missing).toEqual([]);
 });
@@ -95,6 +120,128 @@ test('another texture replaces the missing one; without it, the file is missing 
   expect(arrangement.value).toMatchObject({ texture: own, missing: [] });
   await remove(own);
   expect(arrangement.value.missing).toHaveLength(1);
+});
+
+test('colours that cannot be read leave the shape, with the words of the refusal', async () => {
+  asked.read.mockImplementation(async (spec) =>
+    spec.shapeOnly
+      ? answer({ ...spec, mesh: { name: 'bunny.stl', asset: '' } })
+      : refused('texture skin.png is damaged', 'Save it again', { reason: 'INPUT_REFUSED' }),
+  );
+  await take([obj()]);
+  expect(shape.value).toBeDefined();
+  expect(problems.value).toEqual([]);
+  expect(colourless.value).toEqual([
+    { name: 'spot.obj', why: 'texture skin.png is damaged. Save it again' },
+  ]);
+  await take([picture('own.png')]);
+  expect(colourless.value).toEqual([]);
+});
+
+test('a model is read again only if one of its files changes', async () => {
+  await take([obj(), mtl(), picture('skin.png')]);
+  expect(asked.read).toHaveBeenCalledTimes(1);
+  const first = shape.value;
+  await take([picture('cat.png')]);
+  expect(arrangement.value.texture?.name).toBe('cat.png');
+  expect(shape.value).toBe(first);
+  expect(asked.read).toHaveBeenCalledTimes(1);
+  await take([picture('skin.png')]);
+  expect(asked.read).toHaveBeenCalledTimes(2);
+  // Only the new picture is sent.
+  expect(asked.upload).toHaveBeenCalledTimes(4);
+});
+
+test('pictures that come with a model but are not of its colours are named, and not used', async () => {
+  await take([obj(), mtl(), picture('skin.png'), picture('normal.png')]);
+  expect(arrangement.value.texture).toBeUndefined();
+  expect(problems.value).toMatchObject([{ name: 'normal.png' }]);
+  await take([picture('normal.png')]);
+  expect(arrangement.value.texture?.name).toBe('normal.png');
+});
+
+/** Lets the daemon answer only when the returned function is called. */
+function hold(): () => void {
+  let release = () => {};
+  const released = new Promise<void>((resolve) => (release = resolve));
+  asked.read.mockImplementation(async (spec, signal) => {
+    await released;
+    return signal.aborted
+      ? refused('cancelled', undefined, { reason: 'ABORTED_HERE' })
+      : answer(spec);
+  });
+  return release;
+}
+
+test('files that are dropped while a model is read belong to it', async () => {
+  const release = hold();
+  const first = take([stl()]);
+  await vi.waitFor(() => expect(stage.value?.text).toBe('Reading the model'));
+  const second = take([picture('cat.png')]);
+  release();
+  await Promise.all([first, second]);
+  expect(roles()).toEqual(['mesh bunny.stl', 'texture cat.png']);
+  expect(stage.value).toBeUndefined();
+});
+
+test('what was there stays when the reading of another model is cancelled', async () => {
+  await take([stl()]);
+  const before = shape.value;
+  const release = hold();
+  const taken = take([obj()]);
+  await vi.waitFor(() => expect(stage.value).toBeDefined());
+  cancel();
+  release();
+  await taken;
+  expect(shape.value).toBe(before);
+  expect(names(draft.value.files)).toEqual(['bunny.stl']);
+  expect(problems.value).toEqual([]);
+  expect(stage.value).toBeUndefined();
+});
+
+test('a daemon that does not answer is asked again, and the page says so', async () => {
+  vi.useFakeTimers();
+  asked.read.mockImplementationOnce(async () => refused('no answer', undefined, { status: 0 }));
+  const taken = take([stl()]);
+  await vi.waitFor(() => expect(stage.value?.text).toContain('does not answer'));
+  await vi.advanceTimersByTimeAsync(1000);
+  await taken;
+  expect(shape.value).toBeDefined();
+  expect(asked.read).toHaveBeenCalledTimes(2);
+});
+
+test('files that the daemon does not have any more are uploaded again, once', async () => {
+  const missing = async () => refused('gone', undefined, { reason: 'ASSET_MISSING', status: 400 });
+  asked.read.mockImplementationOnce(missing);
+  await take([stl()]);
+  expect(shape.value).toBeDefined();
+  expect(asked.upload).toHaveBeenCalledTimes(2);
+  startOver();
+  asked.read.mockImplementation(missing);
+  await take([stl()]);
+  expect(problems.value).toEqual([{ name: 'bunny.stl', why: 'gone' }]);
+  expect(asked.upload).toHaveBeenCalledTimes(4);
+});
+
+test('without the role Maker, a model is refused with the remedy', async () => {
+  asked.may.mockReturnValue(false);
+  await take([stl()]);
+  expect(asked.upload).not.toHaveBeenCalled();
+  expect(problems.value[0]!.why).toContain('Ask an admin for the role Maker');
+});
+
+test('the progress of uploads is that of all files', async () => {
+  const seen: (number | undefined)[] = [];
+  asked.upload.mockImplementation(async (blob, tell) => {
+    tell(0.5, false);
+    seen.push(stage.value?.share);
+    return done(`assets/${(blob as File).name}`);
+  });
+  await take([file('bunny.stl', 'x'.repeat(300)), picture('cat.png')]);
+  expect(seen.map((share) => share?.toFixed(3))).toEqual([
+    (150 / 304).toFixed(3),
+    (302 / 304).toFixed(3),
+  ]);
 });
 
 test('a picture that came with a damaged model waits for a better one', async () => {

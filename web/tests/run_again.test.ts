@@ -13,6 +13,7 @@ import {
   takeDipsOfJob,
   type Inputs,
 } from '../src/screens/new_print/draft';
+import { shapeOf } from './shapes';
 
 const kHalf = Math.SQRT1_2;
 const mesh = { name: 'mug.obj', asset: 'assets/1' };
@@ -41,10 +42,7 @@ function read(job: Partial<Job>): void {
 async function open(job: Partial<Job>): Promise<void> {
   read(job);
   expect((await startFrom('jobs/7')).ok).toBe(true);
-  shape.value = {
-    mesh: { positions: new Float32Array(), indices: new Uint32Array(), parts: [], libraries: [] },
-    box: { min: [1, 3, 5], max: [3, 5, 7] },
-  };
+  shape.value = shapeOf({}, { min: [1, 3, 5], max: [3, 5, 7] });
   takeDipsOfJob();
 }
 

@@ -12,6 +12,7 @@ import {
   redo,
   undo,
 } from '../src/screens/new_print/undo';
+import { shapeOf } from './shapes';
 
 vi.mock('../src/worker/reader', () => ({}));
 
@@ -53,13 +54,9 @@ describe('steps of the draft', () => {
   afterAll(end);
 
   const newObject = () => {
-    const mesh = { positions: new Float32Array(), indices: new Uint32Array() };
     clear();
     change({ files: [{ name: 'bunny.stl' } as File] });
-    shape.value = {
-      mesh: { ...mesh, parts: [], libraries: [] },
-      box: { min: [0, 0, 0], max: [1, 1, 1] },
-    };
+    shape.value = shapeOf();
   };
   beforeEach(newObject);
 

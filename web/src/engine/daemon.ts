@@ -3,6 +3,7 @@ import { fetchBytes } from '../api/call';
 import type { Preview } from '../api/types';
 import { done, refused, type Result } from '../model/result';
 import type { DipPreview, Engine } from './engine';
+import { modelOf } from './model';
 
 const kLineFeed = 10;
 
@@ -13,19 +14,22 @@ export function previewOf(bytes: ArrayBuffer): Result<DipPreview> {
     const preview = JSON.parse(new TextDecoder().decode(bytes.slice(0, end))) as Preview;
     return done({ ...preview, map: new Float32Array(bytes, end + 1) });
   } catch {
-    return refused('the preview cannot be read', 'Reload the page', { status: 0 });
+    return refused('the preview cannot be read', 'Reload the page');
   }
 }
 
+/** Sends a request whose response is bytes. */
+async function ask<T>(
+  method: string,
+  json: unknown,
+  signal: AbortSignal,
+  read: (bytes: ArrayBuffer) => Result<T> | Promise<Result<T>>,
+): Promise<Result<T>> {
+  const answer = await fetchBytes(method, { method: 'POST', json, signal });
+  return answer.ok ? read(answer.value) : answer;
+}
+
 export const daemon: Engine = {
-  read: (model, signal) =>
-    fetchBytes('models:read', { method: 'POST', json: { inspect: model }, signal }),
-  preview: async (dip, signal) => {
-    const answer = await fetchBytes('previews:compute', {
-      method: 'POST',
-      json: { simulate: dip },
-      signal,
-    });
-    return answer.ok ? previewOf(answer.value) : answer;
-  },
+  read: (inspect, signal) => ask('models:read', { inspect }, signal, modelOf),
+  preview: (simulate, signal) => ask('previews:compute', { simulate }, signal, previewOf),
 };

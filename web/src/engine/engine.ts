@@ -3,7 +3,27 @@
  * in the browser itself, can stand beside it.
  */
 import type { Preview, SimulateSpecInput, InspectSpec } from '../api/types';
+import type { Box, Mesh } from '../model/mesh';
 import type { Result } from '../model/result';
+import type { Summary } from '../model/summary';
+
+/** Triangles between places, which previews map to the film. */
+export interface Places {
+  /** Frame O, mm: x, y, z of each place. */
+  positions: Float32Array;
+  /** Three places for each triangle. */
+  corners: Uint32Array;
+}
+
+/** A model as the computation understands it. */
+export interface Model {
+  /** For display: thinned if it has many triangles. */
+  mesh: Mesh;
+  /** The bounding box of the whole model, in units of the file. */
+  box: Box;
+  places: Places;
+  summary: Summary;
+}
 
 /** A preview, and its map. */
 export interface DipPreview extends Preview {
@@ -12,8 +32,8 @@ export interface DipPreview extends Preview {
 }
 
 export interface Engine {
-  /** Reads a model as the computation understands it. Returns a binary glTF; see DisplayModel in the API. */
-  read(model: InspectSpec, signal: AbortSignal): Promise<Result<ArrayBuffer>>;
+  /** Reads a model. A new call, also of preview(), ends an unanswered one. */
+  read(model: InspectSpec, signal: AbortSignal): Promise<Result<Model>>;
   /** Previews a dip roughly. A new call ends the previous one. */
   preview(dip: SimulateSpecInput, signal: AbortSignal): Promise<Result<DipPreview>>;
 }

@@ -6,6 +6,7 @@ export interface Named {
   name: string;
 }
 
+/** 'material': belongs to the model, such as an MTL, or the buffer of a glTF. */
 export type Role = 'mesh' | 'material' | 'image' | 'profile';
 
 /** The role of a file by its name, or the reason why the file cannot be used. */
@@ -19,20 +20,19 @@ export function roleOf(name: string): Role | { why: string } {
 }
 
 const kWanted =
-  'Drop a model (OBJ, PLY, STL or glTF), its MTL and images (PNG, JPEG or TIFF), or a film profile (TOML)';
+  'Drop a model (OBJ, PLY, STL or glTF), its MTL or BIN and images (PNG, JPEG or TIFF), or a film profile (TOML)';
 
 const kNoEnding = `the name has no file extension. ${kWanted}. If this is a folder, drop the files inside it`;
 
 const kRoles: Record<string, Role> = {
   obj: 'mesh', ply: 'mesh', stl: 'mesh', glb: 'mesh', gltf: 'mesh',
-  mtl: 'material',
+  mtl: 'material', bin: 'material',
   png: 'image', jpg: 'image', jpeg: 'image', tif: 'image', tiff: 'image',
   toml: 'profile',
 }; // prettier-ignore
 
 const kCad = 'this is a CAD file without a surface mesh. Export the model as STL, PLY or OBJ';
 const kRefusals: Record<string, string> = {
-  bin: 'this is a part of a glTF model. Export the model as GLB, which is a single file',
   zip: 'this is an archive. Unpack it, then drop the extracted files here',
   rar: 'this is an archive. Unpack it, then drop the extracted files here',
   step: kCad,
@@ -50,33 +50,18 @@ const kRefusals: Record<string, string> = {
   pdf: 'PDF cannot be read. Save the image as PNG',
 };
 
-/** Checks the first bytes of a file against its name. Returns the reason if they differ, undefined if they agree. */
-export function contradiction(role: Role, name: string, head: Uint8Array): string | undefined {
+/** Checks the first bytes of an image against its name. Returns the reason if they differ, undefined if they agree. */
+export function contradiction(role: Role, head: Uint8Array): string | undefined {
   if (head.length === 0) return 'the file is empty. Copy or export it again';
   const begins = (...bytes: number[]) => bytes.every((byte, i) => head[i] === byte);
-  if (role === 'image') {
-    const isImage =
-      begins(0x89, 0x50, 0x4e, 0x47) ||
-      begins(0xff, 0xd8, 0xff) ||
-      begins(0x49, 0x49, 0x2a, 0) ||
-      begins(0x4d, 0x4d, 0, 0x2a);
-    return isImage
-      ? undefined
-      : 'the file is not a PNG, JPEG or TIFF. Save the image as PNG or JPEG';
-  }
-  const text = new TextDecoder('latin1').decode(head);
-  if (/\.ply$/i.test(name) && !text.startsWith('ply'))
-    return 'the file is not a PLY file. Export the model again as PLY';
-  if (/\.glb$/i.test(name) && !text.startsWith('glTF'))
-    return 'the file is not a GLB file. Export the model again as GLB';
-  if (/\.gltf$/i.test(name) && !/^\s*\{/.test(text) && !text.startsWith('glTF'))
-    return 'the file is not a glTF file. Export the model again as GLB';
-  if (
-    /\.obj$/i.test(name) &&
-    (head.includes(0) || !/^\s*(#|v|o|g|f|mtllib|usemtl|s)\b/m.test(text))
-  )
-    return 'the file is not an OBJ file. Export the model again as OBJ';
-  return undefined;
+  const isImage =
+    begins(0x89, 0x50, 0x4e, 0x47) ||
+    begins(0xff, 0xd8, 0xff) ||
+    begins(0x49, 0x49, 0x2a, 0) ||
+    begins(0x4d, 0x4d, 0, 0x2a);
+  return role !== 'image' || isImage
+    ? undefined
+    : 'the file is not a PNG, JPEG or TIFF. Save the image as PNG or JPEG';
 }
 
 /** The name without its folder. */
@@ -87,20 +72,8 @@ const keyOf = (path: string): string => baseOf(path).normalize('NFC').toLowerCas
 /** True if the paths name the same file, whatever their folder, case and Unicode form. */
 export const isSameFile = (a: string, b: string): boolean => keyOf(a) === keyOf(b);
 
-/** True if the API accepts the name for a job's input file (InputFile.name). */
-export const isPlain = (name: string): boolean =>
-  name.length > 0 &&
-  new TextEncoder().encode(name).length <= 255 &&
-  !/[\\\p{Cc}]/u.test(name) &&
-  name
-    .split('/')
-    .every((part) => part !== '' && part !== '.' && part !== '..' && !part.startsWith('-'));
-
-/** The name of a file in a job: the name that other files use for it, if the API accepts that name. */
-export function nameFor(file: Named, references: readonly string[]): string {
-  const reference = references.find((path) => isSameFile(path, file.name));
-  const wanted = reference?.replaceAll('\\', '/');
-  if (wanted !== undefined && isPlain(wanted)) return wanted;
+/** The name of a file in a job, which the API must accept. */
+export function nameFor(file: Named): string {
   const own = file.name.replace(/[\\/\p{Cc}]/gu, '_').replace(/^-+/, '');
   return own === '' || own === '.' || own === '..' ? 'file' : own;
 }

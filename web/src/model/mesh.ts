@@ -1,11 +1,16 @@
 import { Refusal } from './result';
 import type { Vec3 } from './pose';
 
-/** The displayed part of a material: its colour, and its image, either by name or embedded in the model's file. */
-export interface SurfaceMaterial {
-  colour: [number, number, number];
-  map?: string;
-  picture?: { bytes: Uint8Array; type: string };
+/** How a picture continues beyond its edges, along u and v. */
+export type Wrap = 'repeat' | 'mirror' | 'clamp';
+
+/** The own look of a part of a mesh. */
+export interface Look {
+  /** Red, green, blue in linear light, 0 to 1. It multiplies the picture and the colours of the vertices. */
+  colour: readonly [number, number, number];
+  /** Its first row is at the top. */
+  picture?: ImageBitmap | undefined;
+  wrap?: readonly [Wrap, Wrap];
 }
 
 /** A triangle mesh in the units and axes of its file. */
@@ -14,18 +19,12 @@ export interface Mesh {
   positions: Float32Array;
   /** Three vertices per triangle, counter-clockwise when seen from outside. */
   indices: Uint32Array;
-  /** u, v of each vertex, with v pointing up; absent if the file has no texture coordinates. */
+  /** u, v of each vertex, with v pointing up; absent if the model has no texture coordinates. */
   uvs?: Float32Array;
-  /** Red, green, blue of each vertex, 0 to 255; absent if the file has no vertex colours. */
-  colours?: Uint8Array;
-  /** Ranges of triangles that share a material; `first` and `count` refer to `indices`. */
-  parts: { material: string; first: number; count: number }[];
-  /** The material libraries that an OBJ references. */
-  libraries: string[];
-  /** Materials defined in the model's own file. */
-  materials?: Map<string, SurfaceMaterial>;
-  /** Length of one unit, if the file format defines it. */
-  unit_mm?: number;
+  /** Red, green, blue of each vertex in linear light, 0 to 65535; absent if the model has no vertex colours. */
+  colours?: Uint16Array;
+  /** Ranges of triangles that share a look; `first` and `count` refer to `indices`. */
+  parts: { look: Look; first: number; count: number }[];
 }
 
 export interface Box {
@@ -34,17 +33,17 @@ export interface Box {
 }
 
 /** Returns the bounding box. Throws a Refusal if there are no triangles or if a vertex is missing or not finite. */
-export function boxOf(mesh: Mesh): Box {
-  if (mesh.indices.length === 0)
+export function boxOf({ indices, positions }: Pick<Mesh, 'indices' | 'positions'>): Box {
+  if (indices.length === 0)
     throw new Refusal(
       'the model has no faces',
       'Export the model as a mesh, not as points or curves',
     );
   const min: [number, number, number] = [Infinity, Infinity, Infinity];
   const max: [number, number, number] = [-Infinity, -Infinity, -Infinity];
-  for (const index of mesh.indices) {
+  for (const index of indices) {
     for (let axis = 0; axis < 3; axis += 1) {
-      const value = mesh.positions[3 * index + axis];
+      const value = positions[3 * index + axis];
       if (value === undefined || !Number.isFinite(value))
         throw new Refusal(
           'a face refers to a vertex that does not exist or is not finite',

@@ -1,4 +1,3 @@
-import { decodeText } from './mtl';
 import { Refusal } from './result';
 
 /** An element of a PLY file: its scalar properties and its list properties, by name. */
@@ -57,13 +56,6 @@ function headerOf(bytes: ArrayBuffer): string {
   const end = /^ply\r?\n[\s\S]*?\nend_header\r?\n/.exec(text);
   if (!end) throw new Refusal('the file has no valid PLY header', kAgain);
   return end[0];
-}
-
-/** The images that the header names, as MeshLab writes them: "comment TextureFile skin.png". */
-export function texturesOf(bytes: ArrayBuffer): string[] {
-  const size = headerOf(bytes).length;
-  const text = decodeText(bytes.slice(0, size));
-  return [...text.matchAll(/^comment[ \t]+TextureFile[ \t]+(.*\S)/gim)].map(([, name]) => name!);
 }
 
 function readHeader(bytes: ArrayBuffer): Header {

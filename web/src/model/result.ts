@@ -24,6 +24,10 @@ export const refused = (
   failure: { what, ...(remedy ? { remedy } : {}), ...more },
 });
 
+/** The failure and its remedy as sentences without the last full stop. */
+export const wordsOf = ({ what, remedy }: Failure): string =>
+  remedy ? `${what}. ${remedy}` : what;
+
 /** Thrown only inside parsers. `attempt` converts it to a Result. */
 export class Refusal extends Error {
   constructor(

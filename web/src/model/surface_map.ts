@@ -30,7 +30,7 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
       'Run the simulation again',
     );
   const indices = trianglesOf(elements);
-  const box = boxOf({ positions, indices, parts: [], libraries: [] });
+  const box = boxOf({ positions, indices });
   let contactMax_s = 0;
   for (const t of contact_s) if (t > contactMax_s) contactMax_s = t;
   return { positions, indices, film_mm, contact_s, stretch, box, contactMax_s };

@@ -6,19 +6,12 @@ import { distancesOf } from './shader';
 
 type Parts = Mesh['parts'];
 
-const linear = (coded: number): number =>
-  coded <= 0.04045 ? coded / 12.92 : ((coded + 0.055) / 1.055) ** 2.4;
-const kLinear16 = Uint16Array.from({ length: 256 }, (_, i) => Math.round(65535 * linear(i / 255)));
-
 /** The attributes that the paint's materials read, except for the distances. */
 export function geometryOf(mesh: Mesh): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
   if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
-  if (mesh.colours) {
-    const colours = Uint16Array.from(mesh.colours, (coded) => kLinear16[coded]!);
-    geometry.setAttribute('ownColour', new BufferAttribute(colours, 3, true));
-  }
+  if (mesh.colours) geometry.setAttribute('ownColour', new BufferAttribute(mesh.colours, 3, true));
   geometry.setIndex(new BufferAttribute(mesh.indices, 1));
   mesh.parts.forEach((part, i) => geometry.addGroup(part.first, part.count, i));
   geometry.computeVertexNormals();

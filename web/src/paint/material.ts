@@ -4,13 +4,13 @@ import {
   DoubleSide,
   MeshBasicMaterial,
   MeshStandardMaterial,
-  SRGBColorSpace,
   Vector3,
   type IUniform,
   type Material,
   type Texture,
   type WebGLRenderer,
 } from 'three';
+import type { Look } from '../model/mesh';
 import { type Quaternion, type Vec3 } from '../model/pose';
 import { attempt } from '../model/result';
 import type { BoxLayer } from './axis_distance';
@@ -19,17 +19,10 @@ import { PictureTextures } from './picture_texture';
 import { place, type Placement, type Solid } from './placement';
 import { fragmentHead, vertexBody, vertexHead, type LayerKind } from './shader';
 
-/** The model's own look of a part of the mesh; the first row of `picture` is at the top. */
-export interface Look {
-  /** Red, green, blue in sRGB, 0 to 1. */
-  colour: readonly [number, number, number];
-  picture?: ImageBitmap | undefined;
-}
-
 /** The mesh that a paint is on. */
 export interface PaintedMesh extends Solid {
   uvs?: Float32Array | undefined;
-  colours?: Uint8Array | undefined;
+  colours?: Uint16Array | undefined;
   /** A point near it, in units of the file. */
   middle: Vec3;
 }
@@ -164,7 +157,8 @@ export class PaintLook {
     if (placement) this.set(`place${i}`, placeUniform(placement, middle_mm));
     if (kind.shows !== 'picture' || !layer.picture) return;
     const repeats = placement ? placement.repeat : (repeat ?? true);
-    this.set(`picture${i}`, this.textures.of(layer.picture, repeats));
+    const wrap = repeats ? 'repeat' : 'clamp';
+    this.set(`picture${i}`, this.textures.of(layer.picture, [wrap, wrap]));
   }
 
   private keepPictures(looks: readonly Look[]): void {
@@ -173,10 +167,10 @@ export class PaintLook {
   }
 
   /** The uniforms of the model's own look. */
-  private ownUniforms({ colour, picture }: Look): Uniforms {
-    const texture: Texture | null = picture ? this.textures.of(picture, true) : null;
+  private ownUniforms({ colour, picture, wrap }: Look): Uniforms {
+    const texture: Texture | null = picture ? this.textures.of(picture, wrap) : null;
     return {
-      ownTint: { value: new Color().setRGB(...colour, SRGBColorSpace) },
+      ownTint: { value: new Color(...colour) },
       ownPicture: { value: texture },
       hasOwnPicture: { value: texture !== null },
     };

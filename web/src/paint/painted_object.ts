@@ -1,11 +1,11 @@
 /** A mesh with a paint, for a scene. Independent of the rest of the page. */
 import { Mesh as Mesh3, type BufferGeometry, type Material, type WebGLRenderer } from 'three';
-import { centreOf, type Box, type Mesh } from '../model/mesh';
+import { centreOf, type Box, type Look, type Mesh } from '../model/mesh';
 import { kUpright, type Quaternion, type Vec3 } from '../model/pose';
 import { findDistances } from '../worker/reader';
 import { fineGeometry, geometryOf } from './geometry';
 import { hitOf, type Hit } from './hit';
-import { PaintLook, type Look, type PaintedMesh } from './material';
+import { PaintLook, type PaintedMesh } from './material';
 import type { Paint } from './paint';
 import { distancesOf } from './shader';
 
@@ -44,15 +44,15 @@ export class PaintedObject {
     renderer.domElement.addEventListener('webglcontextrestored', this.restore);
   }
 
-  /** `scale`: length of a unit, mm. `lookOf` returns the own look of a material. */
-  setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
+  /** `scale`: length of a unit, mm. */
+  setMesh(mesh: Mesh, box: Box, scale: number): void {
     this.clear();
     const { positions, indices, uvs, colours } = mesh;
     this.content = {
       mesh,
       painted: { positions, indices, uvs, colours, scale, middle: centreOf(box) },
       scale,
-      looks: mesh.parts.map((part) => lookOf(part.material)),
+      looks: mesh.parts.map(({ look }) => look),
       coarse: geometryOf(mesh),
     };
     this.object.geometry = this.content.coarse;

@@ -4,6 +4,7 @@ import {
   GLSL3,
   LinearMipmapLinearFilter,
   Mesh,
+  MirroredRepeatWrapping,
   NearestFilter,
   NoBlending,
   OrthographicCamera,
@@ -15,6 +16,14 @@ import {
   WebGLRenderTarget,
   type WebGLRenderer,
 } from 'three';
+import type { Wrap } from '../model/mesh';
+
+const kWraps = {
+  repeat: RepeatWrapping,
+  mirror: MirroredRepeatWrapping,
+  clamp: ClampToEdgeWrapping,
+} as const;
+type Wraps = readonly [Wrap, Wrap];
 
 const kVertex = /* glsl */ `
 in vec3 position;
@@ -46,18 +55,17 @@ function sourceOf(picture: ImageBitmap): Texture {
 }
 
 /** Draws a picture into a texture. Averages of straight colours would be wrong at the borders of transparency. */
-function premultiplied(renderer: WebGLRenderer, picture: ImageBitmap, repeat: boolean) {
+function premultiplied(renderer: WebGLRenderer, picture: ImageBitmap, [u, v]: Wraps) {
   // three.js scales down larger pictures in the same way.
   const longest = Math.max(picture.width, picture.height);
   const scale = Math.min(1, renderer.capabilities.maxTextureSize / longest);
   const [width, height] = [Math.floor(scale * picture.width), Math.floor(scale * picture.height)];
-  const wrap = repeat ? RepeatWrapping : ClampToEdgeWrapping;
   const target = new WebGLRenderTarget(width, height, {
     colorSpace: SRGBColorSpace,
     generateMipmaps: true,
     minFilter: LinearMipmapLinearFilter,
-    wrapS: wrap,
-    wrapT: wrap,
+    wrapS: kWraps[u],
+    wrapT: kWraps[v],
     anisotropy: renderer.capabilities.getMaxAnisotropy(),
     depthBuffer: false,
   });
@@ -84,24 +92,25 @@ function premultiplied(renderer: WebGLRenderer, picture: ImageBitmap, repeat: bo
 
 /** The textures of a view, one per picture and wrap. */
 export class PictureTextures {
-  private readonly known = new Map<ImageBitmap, Map<boolean, WebGLRenderTarget>>();
+  private readonly known = new Map<ImageBitmap, Map<string, WebGLRenderTarget>>();
 
   constructor(private readonly renderer: WebGLRenderer) {}
 
-  /** The texture of a picture, which beyond its edges repeats, or continues with its edge. */
-  of(picture: ImageBitmap, repeat: boolean): Texture {
-    let both = this.known.get(picture);
-    if (!both) this.known.set(picture, (both = new Map()));
-    let target = both.get(repeat);
-    if (!target) both.set(repeat, (target = premultiplied(this.renderer, picture, repeat)));
+  /** The texture of a picture, which continues beyond its edges as `wraps` says. */
+  of(picture: ImageBitmap, wraps: Wraps = ['repeat', 'repeat']): Texture {
+    let all = this.known.get(picture);
+    if (!all) this.known.set(picture, (all = new Map()));
+    const key = wraps.join();
+    let target = all.get(key);
+    if (!target) all.set(key, (target = premultiplied(this.renderer, picture, wraps)));
     return target.texture;
   }
 
   /** Frees the textures of all pictures but these. */
   keep(pictures: ReadonlySet<ImageBitmap>): void {
-    for (const [picture, both] of this.known) {
+    for (const [picture, all] of this.known) {
       if (pictures.has(picture)) continue;
-      for (const target of both.values()) target.dispose();
+      for (const target of all.values()) target.dispose();
       this.known.delete(picture);
     }
   }

@@ -61,11 +61,10 @@ vec3 flatNormal() {
 
 // The model's own colours. Transparent textures are shown over white.
 vec3 ownLook() {
-  if (hasOwnPicture) {
-    vec4 texel = texture2D(ownPicture, vPaintUv);
-    return ownTint * texel.rgb + (1.0 - texel.a);
-  }
-  return hasOwnColours ? ownTint * vOwnColour : ownTint;
+  vec3 tint = hasOwnColours ? ownTint * vOwnColour : ownTint;
+  if (!hasOwnPicture) return tint;
+  vec4 texel = texture2D(ownPicture, vPaintUv);
+  return tint * texel.rgb + (1.0 - texel.a);
 }
 
 vec4 planarPicture(sampler2D picture, Place place) {

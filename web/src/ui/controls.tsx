@@ -290,10 +290,7 @@ export const Figures = ({
   </dl>
 );
 
-export function Progress({ share, label }: { share: number; label: string }) {
-  return (
-    <progress max={1} value={share} aria-label={label}>
-      {Math.round(100 * share)} %
-    </progress>
-  );
+/** Without `share`, it moves but does not say how far the work is. */
+export function Progress({ share, label }: { share: number | undefined; label: string }) {
+  return <progress max={1} {...(share === undefined ? {} : { value: share })} aria-label={label} />;
 }

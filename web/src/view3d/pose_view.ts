@@ -15,12 +15,9 @@ import { TransformControls } from 'three/addons/controls/TransformControls.js';
 import type { Film } from '../model/film';
 import { centreOf, type Box, type Mesh } from '../model/mesh';
 import { rotate, type Pose, type Vec3 } from '../model/pose';
-import type { Look } from '../paint/material';
 import type { Paint } from '../paint/paint';
 import { PaintedObject } from '../paint/painted_object';
 import { Stage, disposeOf, type Side } from './stage';
-
-export type { Look };
 
 /** A point of the object's surface, with the outward normal (length 1) of its triangle; frame O. */
 export interface SurfacePoint {
@@ -70,13 +67,13 @@ export class PoseView {
     this.stage.setFilm(film);
   }
 
-  /** Shows a mesh; `lookOf` returns the appearance of a material. Must be followed by `setPose`. */
-  setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
+  /** Shows a mesh. Must be followed by `setPose`. */
+  setMesh(mesh: Mesh, box: Box, scale: number): void {
     this.clear();
     this.box = box;
     this.scale = scale;
     this.positions = new Float32Array(mesh.positions);
-    this.painted.setMesh(mesh, box, scale, lookOf);
+    this.painted.setMesh(mesh, box, scale);
     const { object } = this.painted;
     object.position.copy(this.originOfO());
     object.scale.setScalar(scale);

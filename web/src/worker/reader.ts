@@ -1,11 +1,9 @@
 /** The page's interface to mesh_worker. */
-import type { Box, Mesh } from '../model/mesh';
 import { refused, type Result } from '../model/result';
 import type { SurfaceMap } from '../model/surface_map';
 import type { BoxLayer, FineMesh } from '../paint/axis_distance';
 
 export type Question =
-  | { what: 'mesh'; name: string; bytes: ArrayBuffer }
   | { what: 'surface_map'; bytes: ArrayBuffer }
   | {
       what: 'axis_distances';
@@ -13,7 +11,6 @@ export type Question =
       boxes: (BoxLayer | undefined)[];
     };
 export type Answer =
-  | { what: 'mesh'; result: Result<{ mesh: Mesh; box: Box }> }
   | { what: 'surface_map'; result: Result<SurfaceMap> }
   | { what: 'axis_distances'; result: Result<FineMesh> };
 
@@ -51,12 +48,6 @@ const kTooMuch = refused(
   'this browser could not read the file',
   'The file may be too large. Try a desktop computer, or a model with fewer faces',
 );
-
-/** Reads an OBJ, PLY, STL or glTF file, chosen by its extension. */
-export async function readMesh(file: File): Promise<Result<{ mesh: Mesh; box: Box }>> {
-  const answer = await ask({ what: 'mesh', name: file.name, bytes: await file.arrayBuffer() });
-  return answer?.what === 'mesh' ? answer.result : kTooMuch;
-}
 
 /** Reads a job's surface_map.ply. */
 export async function readMap(bytes: ArrayBuffer): Promise<Result<SurfaceMap>> {

@@ -12,10 +12,11 @@ import type {
   SimulateSpecInput,
 } from '../../api/types';
 import { dipsOf, split, type Dips } from '../../model/dips';
+import type { Model } from '../../engine/engine';
 import { filmOf, type Film } from '../../model/film';
-import { centreOf, longestOf, sidesOf, type Box, type Mesh } from '../../model/mesh';
+import { centreOf, longestOf, sidesOf } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Vec3 } from '../../model/pose';
-import { done, refused, type Result } from '../../model/result';
+import { done, refused, type Failure, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 import { numberOf } from '../../ui/job_text';
 import { enlarged, layerIn, type LayerChoices } from './picture/choices';
@@ -70,10 +71,12 @@ export const kEmpty: Draft = {
   requestId: '',
 };
 
-/** The model in the units of its file. */
-export interface Shape {
-  mesh: Mesh;
-  box: Box;
+/** The model as it was read. */
+export interface Shape extends Model {
+  /** The uploaded files from which it was read. */
+  source: { mesh: InputFile; extraFiles: InputFile[] };
+  /** Why the model's own colours cannot be read. Its shape can. */
+  colourless?: Failure;
 }
 
 export const draft = signal<Draft>(kEmpty);
@@ -105,9 +108,9 @@ export const sides_mm = computed<Vec3>(() => {
   return [x * scale, y * scale, z * scale];
 });
 
-/** True if the model is known to have no texture coordinates. The shape of a job does not tell. */
+/** True if the model has no texture coordinates. */
 export const lacksCoordinates = computed(
-  () => shape.value !== undefined && !shape.value.mesh.uvs && !draft.value.from,
+  () => shape.value !== undefined && !shape.value.summary.has_texture_coordinates,
 );
 
 /** The picture's layer. Changes of other parts of the draft keep it. */
@@ -146,8 +149,9 @@ export function renewed({ projection, ...kept }: Draft & OldDraft): Draft {
   return projection && !kept.layer ? { ...kept, layer: layerOfOldDraft(projection) } : kept;
 }
 
-/** Initial scale: the unit that the file format defines (glTF: metre), otherwise mm. */
-export const firstScale = ({ mesh }: Shape): number => mesh.unit_mm ?? 1;
+/** The length of a unit that the file format defines (glTF: metre), mm. */
+export const unitOfFormat = (name: string): number | undefined =>
+  /\.(gltf|glb)$/i.test(name) ? 1000 : undefined;
 
 export function clear(): void {
   batch(() => {

@@ -1,27 +1,29 @@
-/** Loads the shape of a job's object from its results, so that the model's file is not needed. */
+/** Reads the object of a job again from the job's own files. */
 import { batch } from '@preact/signals';
-import { fetchBytes } from '../../api/call';
-import { artifactPath } from '../../api/services';
-import type { Vec3 } from '../../model/pose';
+import type { InputFile } from '../../api/types';
 import { done, type Result } from '../../model/result';
-import { readMesh } from '../../worker/reader';
 import { draft, shape, takeDipsOfJob } from './draft';
+import { readModel, stage } from './reading';
 
-export async function shapeOfJob(job: string): Promise<Result<void>> {
-  const file = draft.value.from?.plan ? 'plan.ply' : 'surface_map.ply';
-  const bytes = await fetchBytes(artifactPath(job, file));
-  if (!bytes.ok) return bytes;
-  const read = await readMesh(new File([bytes.value], file));
+export async function shapeOfJob(): Promise<Result<void>> {
+  const { from } = draft.value;
+  if (!from) return done(undefined);
+  const { mesh, extraFiles, scale, texture, paint } = from.spec;
+  const source = {
+    mesh: mesh as InputFile,
+    extraFiles: (extraFiles as InputFile[]).filter(({ name }) => !/\.json$/i.test(name)),
+  };
+  // The page does not have the picture of a job, and does not show other colours instead.
+  const shapeOnly = texture !== undefined || paint !== undefined;
+  const read = await readModel(
+    source,
+    { scale: scale ?? 1, shapeOnly },
+    new AbortController().signal,
+  );
+  stage.value = undefined;
   if (!read.ok) return read;
-  // The results are in mm, but the draft's scale refers to the units of the model's file.
-  const scale = draft.value.from?.spec.scale ?? 1;
-  const { mesh, box } = read.value;
-  const shrink = (v: Vec3): Vec3 => [v[0] / scale, v[1] / scale, v[2] / scale];
   batch(() => {
-    shape.value = {
-      mesh: { ...mesh, positions: mesh.positions.map((value) => value / scale) },
-      box: { min: shrink(box.min), max: shrink(box.max) },
-    };
+    shape.value = read.value;
     takeDipsOfJob();
   });
   return done(undefined);

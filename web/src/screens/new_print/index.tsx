@@ -7,11 +7,13 @@ import { refreshCalibrations } from './calibration';
 import { draft, restore, shape, startFrom } from './draft';
 import { shapeOfJob } from './from_job';
 import { Intake, Taken, useDrop } from './intake_panel';
-import { isReading, problems, reread, startOver } from './intake';
+import { problems, reread, startOver } from './intake';
 import { ObjectView } from './object_view';
 import { PosePanel } from './pose_panel';
 import { FilmPanel, MorePanel } from './settings_panel';
 import { PreviewPanel } from './preview_panel';
+import { stage } from './reading';
+import { ReadingStatus } from './reading_status';
 import { Submit } from './submit_panel';
 import { followSteps } from './undo';
 
@@ -25,7 +27,7 @@ async function prepare(from: string | null): Promise<void> {
     if (!orNotify(await startFrom(from))) return;
   }
   await reread();
-  if (draft.value.from && !shape.value) orNotify(await shapeOfJob(draft.value.from.job));
+  if (draft.value.from && !shape.value) orNotify(await shapeOfJob());
 }
 
 export function NewPrint() {
@@ -44,7 +46,8 @@ export function NewPrint() {
     <div class="new-print">
       <h1 class="hidden">New print</h1>
       <div class={`scene ${isOver ? 'over' : ''}`}>
-        {hasObject ? <ObjectView /> : <Intake isBusy={!isReady || isReading.value} />}
+        {hasObject && <ObjectView />}
+        {!hasObject && (stage.value ? <ReadingStatus /> : <Intake isBusy={!isReady} />)}
         {hasObject && isOver && (
           <p class="landing">A picture lands where you drop it on the object.</p>
         )}

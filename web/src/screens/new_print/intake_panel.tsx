@@ -6,13 +6,15 @@ import { Button, NumberField, Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
-import { draft, longest_mm, rescale, shape, sides_mm } from './draft';
+import { draft, longest_mm, rescale, shape, sides_mm, unitOfFormat } from './draft';
 import { FileList, Waiting } from './file_list';
-import { arrangement, isReading, problems, samples, take, takeSample, waiting } from './intake';
+import { colourless, meshOf, problems, reread, samples, take, takeSample, waiting } from './intake';
 import { takeDropped } from './picture/dropped';
 import { PicturePanel } from './picture/picture_panel';
+import { stage } from './reading';
+import { ReadingStatus } from './reading_status';
 
-const kEndings = '.obj,.mtl,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
+const kEndings = '.obj,.mtl,.bin,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
 
 function Browse({ label }: { label: string }) {
   const input = useRef<HTMLInputElement>(null);
@@ -75,8 +77,8 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
     <div class="intake">
       <h2>{isBusy ? 'Loading…' : 'Drop a model here'}</h2>
       <p>
-        Supported models: OBJ (with its MTL), PLY, STL, glTF and GLB. Add the texture image (PNG or
-        JPEG) unless it is part of the model. You can also drop the image first.
+        Supported models: OBJ (with its MTL), PLY, STL, glTF (with its BIN) and GLB. Add the texture
+        image (PNG or JPEG) unless it is part of the model. You can also drop the image first.
       </p>
       <Waiting />
       <Browse label="Choose files" />
@@ -103,8 +105,14 @@ export function Taken() {
       <h2 id="object-title">1 Object</h2>
       {from && files.length === 0 && <p>Same object as in {from.job.replace('jobs/', 'job ')}</p>}
       {waiting.value.length === 0 && <FileList />}
-      {isReading.value && <p role="status">Reading the model…</p>}
+      {shape.value && <ReadingStatus />}
       <Problems />
+      <Notes />
+      {!shape.value && !stage.value && meshOf(files) && (
+        <button type="button" onClick={() => void reread()}>
+          Read the model again
+        </button>
+      )}
       {hasAny && <Browse label="Add or replace files" />}
       {shape.value && !calibrated.value && <Size />}
       {shape.value && <PicturePanel />}
@@ -114,11 +122,7 @@ export function Taken() {
 
 /** Refused and missing files. */
 function Problems() {
-  const missing = arrangement.value.missing.map(({ name, by }) => ({
-    name,
-    why: `${by} names this file. Add it, or choose another texture`,
-  }));
-  const all = [...problems.value, ...missing];
+  const all = [...problems.value, ...colourless.value];
   if (all.length === 0) return null;
   return (
     <div role="alert">
@@ -130,6 +134,25 @@ function Problems() {
         ))}
       </ul>
     </div>
+  );
+}
+
+/** Missing colours are a problem, unless a texture replaces them. */
+const kOfColours = ['material_file_missing', 'material_missing'];
+
+/** What the worker noticed while it read the model. */
+function Notes() {
+  const { warnings = [] } = shape.value?.summary ?? {};
+  const notes = warnings.filter(({ code }) => !kOfColours.includes(code));
+  if (notes.length === 0) return null;
+  return (
+    <ul class="problems">
+      {notes.map(({ code, message }) => (
+        <li key={code + message}>
+          <Icon name="warning" /> {message}.
+        </li>
+      ))}
+    </ul>
   );
 }
 
@@ -179,7 +202,7 @@ function SizeWarning() {
   const odd = oddSize(longest_mm.value);
   if (!odd) return null;
   const longest = longest_mm.value / draft.value.scale;
-  const unit = likelyUnit(longest, shape.value?.mesh.unit_mm);
+  const unit = likelyUnit(longest, unitOfFormat(`.${shape.value?.summary.format}`));
   return (
     <div class="warning" role="status">
       <p>

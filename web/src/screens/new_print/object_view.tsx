@@ -1,7 +1,7 @@
 /** The object over the film in 3D. The code for 3D is loaded only when it is needed. */
 import { computed, effect, signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { PoseView, Look } from '../../view3d/pose_view';
+import type { PoseView } from '../../view3d/pose_view';
 import type { Side } from '../../view3d/stage';
 import { colourOf, place, type Scale } from '../../model/colour_map';
 import type { Paint } from '../../paint/paint';
@@ -11,7 +11,7 @@ import { calibrated } from './calibration';
 import { change, film, layer, shape } from './draft';
 import { arrangement } from './intake';
 import { looks, mode, setMode, view, type Mode } from './mode';
-import { decoded, followPictures, texturePicture } from './picture/decoded';
+import { decoded, followPicture, texturePicture } from './picture/decoded';
 import { isMovable, pose, scale, surroundings } from './picture/placed';
 import { listen } from './picture/pointer_input';
 import { isAboveOwnColours } from './picture/spec';
@@ -22,13 +22,6 @@ const chosenCoat = signal<'picture' | 'stretch'>('picture');
 /** The picture is shown while it is moved. */
 const coat = computed(() => (mode.value === 'picture' ? 'picture' : chosenCoat.value));
 const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
-
-function lookOf(material: string): Look {
-  const known = arrangement.value.materials.get(material);
-  const picture = known?.file && shape.value?.mesh.uvs && decoded.value.pictures.get(known.file);
-  if (picture) return { colour: [1, 1, 1], picture };
-  return { colour: known?.colour ?? [0.85, 0.85, 0.85] };
-}
 
 /** The object's texture as a layer. */
 function paintOf(): Paint | undefined {
@@ -68,7 +61,7 @@ export function ObjectView() {
       view.value = undefined;
     };
   }, []);
-  useEffect(followPictures, []);
+  useEffect(followPicture, []);
 
   const look = (side: Side) => view.value?.look(side, film.value);
   return (
@@ -154,9 +147,9 @@ function follow(view: PoseView, host: HTMLElement): () => void {
     effect(() => {
       const now = shape.value;
       if (!now) return view.clear();
-      // The pictures of a new object are decoded first, so that it is shown only once.
+      // The texture of a new object is decoded first, so that it is shown only once.
       if (decoded.value.of !== arrangement.value) return;
-      view.setMesh(now.mesh, now.box, scale.value, lookOf);
+      view.setMesh(now.mesh, now.box, scale.value);
       view.setPose(pose.peek());
       const seen = shown.peek();
       view.setHeat(seen && coat.peek() === 'stretch' ? heatOf(seen) : undefined);

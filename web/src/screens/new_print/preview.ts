@@ -1,21 +1,20 @@
 /**
- * The preview: a quick simulation, repeated while the object is rotated. It shows coverage, stretch and warnings well
- * under a second after the last change. All code for previews is in this file. Before the first preview nothing is
- * shown, and a missing preview is not an error.
+ * The preview: a quick simulation, repeated while the object is rotated. It shows coverage, stretch and warnings, for
+ * usual models well under a second after the last change. All code for previews is in this file.
  */
 import { computed, effect, signal } from '@preact/signals';
 import type { SimulateSpecInput } from '../../api/types';
-import { upload } from '../../api/uploads';
 import { daemon } from '../../engine/daemon';
-import type { DipPreview } from '../../engine/engine';
-import { placesOf, type Places } from '../../engine/places';
+import type { DipPreview, Places } from '../../engine/engine';
 import { dipsOf, type Dip } from '../../model/dips';
+import { nameFor } from '../../model/files';
 import type { Warning } from '../../model/report';
-import { done, type Failure, type Result } from '../../model/result';
+import { done, wordsOf, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
 import { calibrated } from './calibration';
-import { centre_mm, draft, shape, simulateOf, type Draft, type Inputs } from './draft';
-import { inputsOf } from './intake';
+import { centre_mm, draft, shape, simulateOf, type Draft, type Inputs, type Shape } from './draft';
+import { profileOf, readAgain } from './intake';
+import { bring, stage, whyWait } from './reading';
 
 /** The displayed values of the last preview. */
 export interface Shown {
@@ -51,11 +50,12 @@ function keepFigures(spec: SimulateSpecInput, dip: Dip, figures: Figures) {
   seen.value = { of, figures: new Map([...known, [keyOf(dip), figures]]) };
 }
 
-/** Why there is no preview, if the input is the reason (for example, the object is beside the film). */
-export const refusal = signal('');
+/** Why there is no preview, and what to do. */
+export const trouble = signal('');
 export const isComputing = signal(false);
 
 const kPause_ms = 60;
+const kWait_ms = 2000; // after a failure that ends by itself
 
 type Settings = Omit<Draft, 'layer' | 'requestId' | 'before' | 'after'>;
 
@@ -75,148 +75,108 @@ const settings = computed(() => {
 /** Keeps the preview up to date until the returned function is called. */
 export function followPreview(): () => void {
   const requester = new PreviewRequester();
-  const inputs = computed(() => (shape.value ? inputsOf(draft.value.files) : []));
-  const ends = [
-    effect(() => {
-      void draft.value.files;
-      void requester.bring(inputs.value);
-    }),
-    effect(() => {
-      void settings.value;
-      void calibrated.value;
-      requester.schedule();
-    }),
-  ];
+  const end = effect(() => {
+    void [settings.value, calibrated.value, shape.value];
+    // A model that is read would end the preview.
+    if (!stage.value) requester.schedule();
+  });
   return () => {
-    ends.forEach((end) => end());
+    end();
     requester.end();
   };
 }
 
 class PreviewRequester {
-  private mesh: Inputs | undefined;
-  private files: readonly File[] = [];
-  private bringing = new AbortController();
   private asking = new AbortController();
   private timer = 0;
-  /** The places of the last model; `key` identifies its asset and its calibration or scale. */
+  /** True if the model was read again, and there was no preview since. */
+  private hasReadAgain = false;
+  /** The places of the last model that was read for its shape; `key` identifies it. */
   private known: { key: string; places: Places } | undefined;
-  private isOff = false;
 
-  /** Uploads the files that a preview needs. Submitting needs them too. */
-  async bring(inputs: ReturnType<typeof inputsOf>): Promise<void> {
-    const wanted = inputs.filter(
-      ({ role, name }) => role === 'mesh' || role === 'profile' || /\.mtl$/i.test(name),
-    );
-    if (
-      wanted.length === this.files.length &&
-      wanted.every(({ file }, i) => file === this.files[i])
-    )
-      return;
-    this.files = wanted.map(({ file }) => file);
-    this.bringing.abort();
-    this.bringing = new AbortController();
-    const { signal: abortSignal } = this.bringing;
-    this.mesh = undefined;
-    shown.value = undefined;
-    if (wanted.length === 0 || !may('MAKER')) return;
-    const out: Partial<Inputs> & { extraFiles: Inputs['extraFiles'] } = { extraFiles: [] };
-    for (const { role, name, file } of wanted) {
-      const asset = await upload(file, () => {}, abortSignal);
-      if (!asset.ok || abortSignal.aborted) return;
-      const input = { name, asset: asset.value };
-      if (role === 'mesh') out.mesh = input;
-      else if (role === 'profile') out.profile = input;
-      else out.extraFiles.push(input);
-    }
-    if (!out.mesh) return;
-    this.mesh = { ...out, mesh: out.mesh };
-    this.schedule();
-  }
-
-  schedule(): void {
+  schedule(pause_ms = kPause_ms): void {
     window.clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.ask(), kPause_ms);
+    this.timer = window.setTimeout(() => void this.ask(), pause_ms);
   }
 
   end(): void {
-    this.bringing.abort();
     this.asking.abort();
     window.clearTimeout(this.timer);
     shown.value = undefined;
-    refusal.value = '';
-  }
-
-  private inputs(): Inputs | undefined {
-    const { from, files } = draft.value;
-    if (this.mesh || files.length > 0 || !from) return this.mesh;
-    return from.spec as Inputs;
+    trouble.value = '';
   }
 
   private async ask(): Promise<void> {
-    const inputs = this.inputs();
-    if (this.isOff || !inputs?.mesh || !shape.value) return;
+    const now = shape.value;
+    if (!now || !may('MAKER')) return;
     this.asking.abort();
     this.asking = new AbortController();
     const { signal: abortSignal } = this.asking;
     const dip = draft.value;
-    const simulate = simulateOf(draft.value, inputs, centre_mm.value);
-    const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
-    const spec = partOf(simulate, inputs);
-    const places = await this.places(spec, key, abortSignal);
-    const answer = places.ok ? await daemon.preview(spec, abortSignal) : places;
+    const computed = await this.compute(now, dip, abortSignal);
     if (abortSignal.aborted) return;
     isComputing.value = false;
-    if (!answer.ok) return this.refuse(answer.failure);
-    if (!places.ok) return;
-    keepFigures(spec, dip, answer.value);
-    this.show(answer.value, places.value);
-    await this.askForOthers(inputs, abortSignal);
+    if (!computed.ok) return this.refuse(computed.failure);
+    const { spec, places, preview } = computed.value;
+    keepFigures(spec, dip, preview);
+    this.show(preview, places);
+    await this.askForOthers(spec, abortSignal);
+  }
+
+  private async compute(now: Shape, dip: Draft, abortSignal: AbortSignal) {
+    const inputs = await inputsFor(now, abortSignal);
+    if (!inputs.ok) return inputs;
+    const spec = partOf(dip, inputs.value);
+    const places = await this.places(now, spec, abortSignal);
+    if (!places.ok) return places;
+    const preview = await daemon.preview(spec, abortSignal);
+    return preview.ok ? done({ spec, places: places.value, preview: preview.value }) : preview;
   }
 
   /** Previews the other dips of which there is no preview yet. */
-  private async askForOthers(inputs: Inputs, abortSignal: AbortSignal): Promise<void> {
+  private async askForOthers(like: SimulateSpecInput, abortSignal: AbortSignal): Promise<void> {
     for (const dip of dipsOf(draft.value)) {
       if (figuresOf(dip)) continue;
-      const spec = partOf(simulateOf({ ...draft.value, ...dip }, inputs, centre_mm.value), inputs);
+      const { pose, depthMm } = simulateOf({ ...draft.value, ...dip }, kNoInputs, centre_mm.value);
+      const { depthMm: _, ...others } = like;
+      const spec = { ...others, pose: pose!, ...(depthMm ? { depthMm } : {}) };
       const answer = await daemon.preview(spec, abortSignal);
       if (abortSignal.aborted) return;
       if (answer.ok) keepFigures(spec, dip, answer.value);
     }
   }
 
-  /** Returns the places of the spec's model, which is read again if it is another one. */
+  /** Returns the places of the spec's model. At another scale, thinning may have another result. */
   private async places(
-    { mesh, extraFiles, scale }: SimulateSpecInput,
-    key: string,
+    { places, source, summary }: Shape,
+    { scale = 1 }: SimulateSpecInput,
     abortSignal: AbortSignal,
   ): Promise<Result<Places>> {
+    if (scale === summary.scale) return done(places);
+    const key = JSON.stringify([source, scale]);
     if (this.known?.key === key) return done(this.known.places);
-    const glb = await daemon.read(
-      {
-        mesh: mesh!,
-        extraFiles: extraFiles ?? [],
-        ...(scale ? { scale } : {}),
-        shapeOnly: true,
-      },
-      abortSignal,
-    );
-    if (!glb.ok) return glb;
-    const places = await placesOf(glb.value);
-    if (places.ok && !abortSignal.aborted) this.known = { key, places: places.value };
-    return places;
+    const read = await daemon.read({ ...source, scale, shapeOnly: true }, abortSignal);
+    if (!read.ok) return read;
+    this.known = { key, places: read.value.places };
+    return done(read.value.places);
   }
 
-  private refuse({ what, status, reason }: Failure): void {
-    if (status === 404 || status === 501) this.isOff = true;
+  private refuse(failure: Failure): void {
+    if (failure.reason === 'ASSET_MISSING' && !this.hasReadAgain) {
+      this.hasReadAgain = true;
+      return void readAgain();
+    }
+    const why = whyWait(failure);
     shown.value = undefined;
-    refusal.value = status === 400 || reason === 'PREVIEW_REFUSED' ? what : '';
+    trouble.value = why ?? wordsOf(failure);
+    if (why) this.schedule(kWait_ms);
   }
 
   private show(preview: DipPreview, { positions, corners }: Places): void {
     const { map } = preview;
-    refusal.value = '';
+    this.hasReadAgain = false;
+    trouble.value = '';
     shown.value = {
       positions,
       corners,
@@ -229,20 +189,33 @@ class PreviewRequester {
   }
 }
 
+/** The files of the preview's spec: those from which the model was read, and the film's profile. */
+async function inputsFor({ source }: Shape, signal: AbortSignal): Promise<Result<Inputs>> {
+  const { from, files } = draft.value;
+  const profile = profileOf(files);
+  if (!profile) {
+    const ofJob = from?.spec.profile as Inputs['profile'];
+    return done(ofJob ? { ...source, profile: ofJob } : source);
+  }
+  const brought = await bring([{ name: nameFor(profile), file: profile }], () => {}, signal);
+  return brought.ok ? done({ ...source, profile: brought.value[0]! }) : brought;
+}
+
+/** Dips are previewed without the picture, whose files this lacks. */
+const kNoInputs: Inputs = { mesh: { name: '', asset: '' }, extraFiles: [] };
+
 /** The part of a simulation's spec that affects its preview. */
-function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
+function partOf(dip: Draft, { mesh, extraFiles, profile }: Inputs): SimulateSpecInput {
+  const simulate = simulateOf(dip, kNoInputs, centre_mm.value);
   const calibration = calibrated.value?.calibration;
   const measured = calibration
     ? { pose: calibration.pose, scale: calibration.scale, film: calibration.film || undefined }
     : { pose: simulate.pose, scale: simulate.scale, film: simulate.film };
   const outline = calibration?.filmFile ? [calibration.filmFile] : [];
   return {
-    mesh: inputs.mesh,
-    extraFiles: [
-      ...inputs.extraFiles.filter((file) => /\.(mtl|json)$/i.test(file.name)),
-      ...outline,
-    ],
-    ...(inputs.profile ? { profile: inputs.profile } : {}),
+    mesh,
+    extraFiles: [...extraFiles, ...outline],
+    ...(profile ? { profile } : {}),
     ...(measured as Pick<SimulateSpecInput, 'pose' | 'scale' | 'film'>),
     ...(simulate.depthMm ? { depthMm: simulate.depthMm } : {}),
     ...(simulate.dipSpeedMmPerS ? { dipSpeedMmPerS: simulate.dipSpeedMmPerS } : {}),

@@ -1,31 +1,46 @@
 import { useEffect } from 'preact/hooks';
 import { formatFactor, formatSeconds, formatShare } from '../../model/units';
-import { Figures } from '../../ui/controls';
+import { Figures, Progress } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
-import { followPreview, refusal, shown } from './preview';
+import { shape } from './draft';
+import { followPreview, isComputing, shown, trouble } from './preview';
 
 /** Preview of the print in the current pose. */
 export function PreviewPanel() {
   useEffect(followPreview, []);
-  if (refusal.value) return <p class="warning">{refusal.value}</p>;
+  if (trouble.value)
+    return (
+      <p class="warning" role="status">
+        No preview: {trouble.value}.
+      </p>
+    );
   const now = shown.value;
-  if (!now) return null;
+  if (!now && !isComputing.value) return null;
+  const known = new Set(shape.value?.summary.warnings?.map(({ message }) => message));
   return (
     <section aria-labelledby="preview-title" aria-live="polite">
       <h2 id="preview-title">Preview</h2>
-      <Figures
-        rows={[
-          ['Coverage', formatShare(now.coverage)],
-          ['Stretch (95th percentile)', formatFactor(now.stretchP95)],
-          ['Computing time', formatSeconds(now.seconds)],
-        ]}
-      />
+      <div class={isComputing.value ? 'busy' : 'busy done'}>
+        <Progress share={undefined} label="Computing the preview" />
+      </div>
+      {!now && <p>Computing the preview…</p>}
+      {now && (
+        <Figures
+          rows={[
+            ['Coverage', formatShare(now.coverage)],
+            ['Stretch (95th percentile)', formatFactor(now.stretchP95)],
+            ['Computing time', formatSeconds(now.seconds)],
+          ]}
+        />
+      )}
       <ul class="problems">
-        {now.warnings.map(({ code, message, where }) => (
-          <li key={code + where}>
-            <Icon name="warning" /> {message}.
-          </li>
-        ))}
+        {now?.warnings
+          .filter(({ message }) => !known.has(message))
+          .map(({ code, message, where }) => (
+            <li key={code + where}>
+              <Icon name="warning" /> {message}.
+            </li>
+          ))}
       </ul>
     </section>
   );

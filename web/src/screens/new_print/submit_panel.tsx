@@ -4,7 +4,7 @@ import { upload } from '../../api/uploads';
 import { remedyForMissing } from '../../model/arrangement';
 import { dipsOf } from '../../model/dips';
 import type { Pose } from '../../model/pose';
-import { done, refused, type Failure, type Result } from '../../model/result';
+import { done, refused, wordsOf, type Failure, type Result } from '../../model/result';
 import { go } from '../../route';
 import { remember } from '../../state/jobs';
 import { complain } from '../../state/notices';
@@ -13,7 +13,7 @@ import { Progress } from '../../ui/controls';
 import { remedyOf, useFormErrors } from '../../ui/field_errors';
 import { calibrated, staleness } from './calibration';
 import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
-import { arrangement, inputsOf } from './intake';
+import { arrangement, colourless, inputsOf } from './intake';
 import { pictureOf } from './picture/spec';
 
 interface Sending {
@@ -99,6 +99,7 @@ function obstacle(): string | undefined {
   if (!shape.value) return 'Drop a model, or choose a sample';
   const remedy = remedyForMissing(arrangement.value.missing);
   if (remedy) return remedy;
+  if (colourless.value.length > 0) return 'Correct the colours of the model, or choose a texture';
   const poses = calibrated.value
     ? [calibrated.value.pose]
     : dipsOf(draft.value).map(({ pose }) => pose);
@@ -120,8 +121,7 @@ export function Submit() {
     <div class="submit">
       {failure.value && (
         <p class="error" role="alert">
-          {failure.value.what}
-          {failure.value.remedy ? `. ${failure.value.remedy}` : ''}.
+          {wordsOf(failure.value)}.
         </p>
       )}
       <button

@@ -1,16 +1,16 @@
-/** The pictures of the draft as the browser decodes them. It cannot decode TIFF. */
+/** The texture of the draft as the browser decodes it. It cannot decode TIFF. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Arrangement } from '../../../model/arrangement';
 import { readPicture } from '../../../paint/paint';
 import { arrangement } from '../intake';
 
 export interface Decoded {
-  /** The arrangement of files to which the pictures belong. */
+  /** The arrangement of files to which the picture belongs. */
   of: Arrangement<File> | undefined;
-  pictures: ReadonlyMap<File, ImageBitmap>;
+  picture?: ImageBitmap | undefined;
 }
 
-export const decoded = signal<Decoded>({ of: undefined, pictures: new Map() });
+export const decoded = signal<Decoded>({ of: undefined });
 
 const known = new WeakMap<File, Promise<ImageBitmap | undefined>>();
 
@@ -20,29 +20,19 @@ function read(file: File): Promise<ImageBitmap | undefined> {
   return picture;
 }
 
-async function decode({ materials, texture }: Arrangement<File>): Promise<Decoded['pictures']> {
-  const pictures = new Map<File, ImageBitmap>();
-  for (const file of [texture, ...[...materials.values()].map((material) => material.file)]) {
-    const picture = file && (await read(file));
-    if (file && picture) pictures.set(file, picture);
-  }
-  return pictures;
-}
-
-/** Keeps the pictures up to date until the returned function is called. */
-export const followPictures = (): (() => void) =>
+/** Keeps the picture up to date until the returned function is called. */
+export const followPicture = (): (() => void) =>
   effect(() => {
     const of = arrangement.value;
-    void decode(of).then((pictures) => {
-      if (arrangement.peek() === of) decoded.value = { of, pictures };
+    void Promise.resolve(of.texture && read(of.texture)).then((picture) => {
+      if (arrangement.peek() === of) decoded.value = { of, picture };
     });
   });
 
 /** The texture's picture; undefined without a texture, and until it is decoded. */
 export const texturePicture = computed(() => {
-  const { of, pictures } = decoded.value;
-  const { texture } = arrangement.value;
-  return of === arrangement.value && texture ? pictures.get(texture) : undefined;
+  const { of, picture } = decoded.value;
+  return of === arrangement.value ? picture : undefined;
 });
 
 /** True if the browser cannot show the texture. */

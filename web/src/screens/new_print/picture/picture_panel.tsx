@@ -19,7 +19,7 @@ export function PicturePanel() {
   return (
     <div class="picture" role="group" aria-labelledby="picture-title">
       <h3 id="picture-title">Picture</h3>
-      <Projection isUnknown={from !== undefined} />
+      <Projection />
       {isPlaced(layer.value.projection) ? (
         <>
           <DirectionChoice />
@@ -40,7 +40,7 @@ const Foreign = () => (
   </p>
 );
 
-function Projection({ isUnknown }: { isUnknown: boolean }) {
+function Projection() {
   const { projection } = layer.value;
   const choose = (next: typeof projection) =>
     change({ layer: withProjection(draft.value.layer, next, rotation.value) });
@@ -49,11 +49,10 @@ function Projection({ isUnknown }: { isUnknown: boolean }) {
       <ProjectionChoice
         value={projection}
         lacksCoordinates={lacksCoordinates.value}
-        isUnknown={isUnknown}
         onValue={choose}
       />
       <p class="quiet" role="status">
-        {wayAround() ?? howOf(projection, isUnknown)}
+        {wayAround() ?? howOf(projection)}
         {isAboveOwnColours(layer.value, arrangement.value.hasOwnColours) &&
           ' Around it, the model keeps its own colours.'}
         {isUndecodable.value && ' This browser cannot show the picture here; the result shows it.'}

@@ -30,22 +30,13 @@ const kChoices: { value: Projection; label: string; how: string }[] = [
   { value: 'decal', label: 'Sticker', how: 'The picture sticks to one place on the surface.' },
 ];
 
-const kDefault = {
-  label: 'Default',
-  how: 'The texture coordinates of the model place the picture. Without them, it is projected from below.',
-};
-
-/** What a projection does, in one sentence. `isUnknown`: it is not known whether the model has texture coordinates. */
-export const howOf = (projection: ProjectionName, isUnknown: boolean): string =>
-  projection === 'uv' && isUnknown
-    ? kDefault.how
-    : (kChoices.find(({ value }) => value === projection)?.how ?? '');
+/** What a projection does, in one sentence. */
+export const howOf = (projection: ProjectionName): string =>
+  kChoices.find(({ value }) => value === projection)?.how ?? '';
 
 export function ProjectionChoice(props: {
   value: ProjectionName;
   lacksCoordinates: boolean;
-  /** True if it is not known whether the model has texture coordinates. */
-  isUnknown: boolean;
   onValue: (projection: ProjectionName) => void;
 }) {
   const name = useId();
@@ -63,7 +54,7 @@ export function ProjectionChoice(props: {
           />
           <span>
             <Pictogram projection={value} />
-            {value === 'uv' && props.isUnknown ? kDefault.label : label}
+            {label}
           </span>
         </label>
       ))}
