@@ -62,6 +62,7 @@ describe('a missing file', () => {
     expect(remedyForMissing(arranged.missing)).toBe(
       'Add "a.png", which the model names, and 1 more file, or choose another texture',
     );
+    expect(remedyForMissing(['a.png', 'b.png', 'c.png'])).toContain(', and 2 more files, or');
   });
 
   test('is unknown before there is a model', () => {
@@ -87,5 +88,12 @@ describe('a mesh without texture coordinates', () => {
     const { texture, extra } = arrange(summary, [mtl], [skin]);
     expect(texture).toBe(skin);
     expect(extra.map(({ name }) => name)).toEqual(['spot.mtl']);
+  });
+
+  test('takes none of several images that it names', () => {
+    const images = [file('skin.png'), file('eyes.png')];
+    const arranged = arrange(summaryOf({ companions: images }), [], images);
+    expect(arranged.texture).toBeUndefined();
+    expect(arranged).toMatchObject({ hasOwnColours: false, unused: [] });
   });
 });

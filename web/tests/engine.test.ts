@@ -40,8 +40,8 @@ const kSummary = {
 };
 
 /**
- * A binary glTF of two primitives that share their vertices; the second vertex and the last are at one place. The first
- * primitive has a factor, the second a picture. It is what `inspect` writes.
+ * A binary glTF of three primitives that share their vertices; the second vertex and the last are at one place. The first
+ * primitive has a factor, the others a picture each. It is what `inspect` writes.
  */
 function glb(extras: object = kSummary): ArrayBuffer {
   const floats = (...numbers: number[]) => new Uint8Array(Float32Array.from(numbers).buffer);
@@ -54,6 +54,7 @@ function glb(extras: object = kSummary): ArrayBuffer {
     ),
     new Uint8Array(Uint32Array.of(0, 1, 2, 2, 3, 0).buffer),
     Uint8Array.of(7, 8, 9, 0),
+    Uint8Array.of(1, 2, 3, 4),
   ];
   let at = 0;
   const bufferViews = views.map(({ length }) => {
@@ -79,16 +80,27 @@ function glb(extras: object = kSummary): ArrayBuffer {
         primitives: [
           { attributes, indices: 4, material: 0 },
           { attributes, indices: 5, material: 1 },
+          { attributes, indices: 4, material: 2 },
         ],
       },
     ],
     materials: [
       surface({ baseColorFactor: [0.25, 0.5, 1, 1] }),
+      surface({ baseColorTexture: { index: 1 } }),
       surface({ baseColorTexture: { index: 0 } }),
     ],
-    textures: [{ source: 0, sampler: 0 }],
-    samplers: [{ wrapS: 33071, wrapT: 33648 }],
-    images: [{ bufferView: 5, mimeType: 'image/png' }],
+    textures: [
+      { source: 1, sampler: 1 },
+      { source: 0, sampler: 0 },
+    ],
+    samplers: [
+      { wrapS: 33071, wrapT: 33648 },
+      { wrapS: 33648, wrapT: 10497 },
+    ],
+    images: [
+      { bufferView: 5, mimeType: 'image/png' },
+      { bufferView: 6, mimeType: 'image/jpeg' },
+    ],
     accessors: [
       accessor(0, 5126, 4, 'VEC3'),
       accessor(1, 5126, 4, 'SCALAR'),
@@ -129,9 +141,9 @@ async function read(bytes: ArrayBuffer) {
 test('the places of a model are in mm of the object frame, its mesh and box in units of the file', async () => {
   const { places, mesh, box, summary } = await read(glb());
   expect([...places.positions]).toEqual([1000, 0, 0, 1010, 0, 0, 1000, 20, 0]);
-  expect([...places.corners]).toEqual([0, 1, 2, 2, 1, 0]);
+  expect([...places.corners]).toEqual([0, 1, 2, 2, 1, 0, 0, 1, 2]);
   expect([...mesh.positions]).toEqual([100, 0, 0, 101, 0, 0, 100, 2, 0, 101, 0, 0]);
-  expect([...mesh.indices]).toEqual([0, 1, 2, 2, 3, 0]);
+  expect([...mesh.indices]).toEqual([0, 1, 2, 2, 3, 0, 0, 1, 2]);
   expect(box).toEqual({ min: [100, 0, 0], max: [101, 2, 0] });
   expect(summary).toEqual(kSummary);
 });
@@ -144,11 +156,13 @@ test('its colours are in linear light without alpha, and v points up', async () 
 
 test('each part has its factor, or its picture with its wrap', async () => {
   const { mesh } = await read(glb());
-  const [tinted, pictured] = mesh.parts;
+  const [tinted, pictured, other] = mesh.parts;
   expect(tinted).toEqual({ look: { colour: [0.25, 0.5, 1] }, first: 0, count: 3 });
   expect(pictured).toMatchObject({ first: 3, count: 3 });
   expect(pictured!.look).toMatchObject({ colour: [1, 1, 1], wrap: ['clamp', 'mirror'] });
   expect(pictured!.look.picture).toMatchObject({ ...kBitmap, bytes: [7, 8, 9, 0] });
+  expect(other).toMatchObject({ first: 6, count: 3, look: { wrap: ['mirror', 'repeat'] } });
+  expect(other!.look.picture).toMatchObject({ bytes: [1, 2, 3, 4] });
 });
 
 test('a model without any colour is grey', async () => {

@@ -24,11 +24,11 @@ describe('files', () => {
     expect(roleOf('textures')).toEqual({ why: expect.stringContaining('If this is a folder') });
   });
 
-  test('are refused if they are empty, or images that are none by their first bytes', () => {
+  test('are refused if they are empty, or if an image does not begin like one', () => {
     expect(contradiction('image', bytes('<svg/>'))).toBeDefined();
     expect(contradiction('image', new Uint8Array([0x89, 0x50, 0x4e, 0x47]))).toBeUndefined();
     expect(contradiction('mesh', bytes(''))).toBeDefined();
-    // What a model is, the worker decides.
+    // The worker decides whether a file is a model.
     expect(contradiction('mesh', bytes('anything'))).toBeUndefined();
   });
 

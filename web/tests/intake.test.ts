@@ -1,5 +1,5 @@
-import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import type { InspectSpec } from '../src/api/types';
+import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
+import type { InspectSpec, Role } from '../src/api/types';
 import type { upload } from '../src/api/uploads';
 import type { Engine } from '../src/engine/engine';
 import { add } from '../src/model/dips';
@@ -42,7 +42,7 @@ const kCompanions = ['spot.mtl', 'skin.png'];
 const asked = vi.hoisted(() => ({
   read: vi.fn<Engine['read']>(),
   upload: vi.fn<typeof upload>(),
-  may: vi.fn<() => boolean>(),
+  may: vi.fn<(role: Role) => boolean>(),
 }));
 vi.mock('../src/engine/daemon', () => ({ daemon: { read: asked.read } }));
 vi.mock('../src/api/uploads', () => ({ upload: asked.upload }));
@@ -80,7 +80,7 @@ beforeEach(() => {
   asked.upload
     .mockReset()
     .mockImplementation(async (blob) => done(`assets/${(blob as File).name}`));
-  asked.may.mockReset().mockReturnValue(true);
+  asked.may.mockReset().mockImplementation((role) => role === 'MAKER');
   startOver();
 });
 afterEach(() => vi.useRealTimers());
@@ -150,6 +150,36 @@ test('a model is read again only if one of its files changes', async () => {
   expect(asked.read).toHaveBeenCalledTimes(2);
   // Only the new picture is sent.
   expect(asked.upload).toHaveBeenCalledTimes(4);
+  await take([file('more.mtl', 'newmtl n\n')]);
+  expect(asked.read).toHaveBeenCalledTimes(3);
+});
+
+test('the daemon reads the uploaded files at the scale of the draft', async () => {
+  await take([file('bunny.stl', 'solid')]);
+  const mesh = { name: 'bunny.stl', asset: 'assets/bunny.stl' };
+  expect(asked.read.mock.lastCall![0]).toEqual({ mesh, extraFiles: [], scale: 1 });
+  change({ scale: 25.4 });
+  await take([mtl()]);
+  const extraFiles = [{ name: 'spot.mtl', asset: 'assets/spot.mtl' }];
+  expect(asked.read.mock.lastCall![0]).toEqual({ mesh, extraFiles, scale: 25.4 });
+  // The scale was that of the other object.
+  await take([obj()]);
+  expect(asked.read.mock.lastCall![0]).toMatchObject({ mesh: { name: 'spot.obj' }, scale: 1 });
+});
+
+test('the pictures of a model are closed once another one is shown', async () => {
+  const close = vi.fn();
+  asked.read.mockImplementation(async (spec) => {
+    const read = await answer(spec);
+    const picture = { close } as unknown as ImageBitmap;
+    if (read.ok) read.value.mesh.parts[0]!.look = { colour: [1, 1, 1], picture };
+    return read;
+  });
+  await take([stl()]);
+  await take([picture('cat.png')]);
+  expect(close).not.toHaveBeenCalled();
+  await take([stl()]);
+  expect(close).toHaveBeenCalledTimes(1);
 });
 
 test('pictures that come with a model but are not of its colours are named, and not used', async () => {
@@ -181,7 +211,30 @@ test('files that are dropped while a model is read belong to it', async () => {
   release();
   await Promise.all([first, second]);
   expect(roles()).toEqual(['mesh bunny.stl', 'texture cat.png']);
+  expect(draft.value.name).toBe('bunny');
   expect(stage.value).toBeUndefined();
+});
+
+test('a picture that waited stays while its model is read, if another picture is dropped', async () => {
+  await take([picture('skin.png')]);
+  const release = hold();
+  const first = take([obj(), mtl()]);
+  await vi.waitFor(() => expect(stage.value?.text).toBe('Reading the model'));
+  const second = take([picture('normal.png')]);
+  release();
+  await Promise.all([first, second]);
+  expect(roles()).toEqual(['mesh spot.obj', 'extra spot.mtl', 'extra skin.png']);
+});
+
+test('a new model is not lost when a file of the old one is removed meanwhile', async () => {
+  await take([stl(), picture('cat.png')]);
+  const release = hold();
+  const taken = take([obj()]);
+  await vi.waitFor(() => expect(stage.value).toBeDefined());
+  const removed = remove(draft.value.files.find(({ name }) => name === 'cat.png')!);
+  release();
+  await Promise.all([taken, removed]);
+  expect(roles()).toEqual(['mesh spot.obj']);
 });
 
 test('what was there stays when the reading of another model is cancelled', async () => {
@@ -199,15 +252,37 @@ test('what was there stays when the reading of another model is cancelled', asyn
   expect(stage.value).toBeUndefined();
 });
 
-test('a daemon that does not answer is asked again, and the page says so', async () => {
-  vi.useFakeTimers();
-  asked.read.mockImplementationOnce(async () => refused('no answer', undefined, { status: 0 }));
-  const taken = take([stl()]);
-  await vi.waitFor(() => expect(stage.value?.text).toContain('does not answer'));
-  await vi.advanceTimersByTimeAsync(1000);
-  await taken;
-  expect(shape.value).toBeDefined();
-  expect(asked.read).toHaveBeenCalledTimes(2);
+describe('a failure that ends by itself', () => {
+  beforeEach(() => vi.useFakeTimers());
+
+  test.each([
+    [{ status: 0 }, 'does not answer'],
+    [{ status: 503 }, 'does not answer'],
+    [{ reason: 'PREVIEWS_FULL', status: 429 }, 'Others use all previews'],
+    [{ reason: 'PREVIEW_SUPERSEDED', status: 409 }, 'Another page of yours'],
+  ])('is waited for, and the page says so: %o', async (failure, words) => {
+    asked.read.mockImplementationOnce(async () => refused('not now', undefined, failure));
+    const taken = take([stl()]);
+    await vi.waitFor(() => expect(stage.value?.text).toContain(words));
+    expect(asked.read).toHaveBeenCalledTimes(1);
+    await vi.runAllTimersAsync();
+    await taken;
+    expect(shape.value).toBeDefined();
+    expect(problems.value).toEqual([]);
+    expect(asked.read).toHaveBeenCalledTimes(2);
+  });
+
+  test('is not waited for any more once the reading is cancelled', async () => {
+    asked.read.mockImplementation(async () => refused('not now', undefined, { status: 0 }));
+    const taken = take([stl()]);
+    await vi.waitFor(() => expect(stage.value?.text).toContain('does not answer'));
+    cancel();
+    await vi.advanceTimersByTimeAsync(60_000);
+    await taken;
+    expect(asked.read).toHaveBeenCalledTimes(1);
+    expect(stage.value).toBeUndefined();
+    expect(problems.value).toEqual([]);
+  });
 });
 
 test('files that the daemon does not have any more are uploaded again, once', async () => {
@@ -244,16 +319,41 @@ test('the progress of uploads is that of all files', async () => {
   ]);
 });
 
+test('an upload that fails names its file', async () => {
+  asked.upload.mockResolvedValue(refused('the disk is full', 'Delete old jobs'));
+  await take([stl()]);
+  expect(asked.read).not.toHaveBeenCalled();
+  expect(problems.value[0]!.why).toBe('bunny.stl: the disk is full. Delete old jobs');
+});
+
+test('a damaged model does not replace the one that is there', async () => {
+  await take([stl(), picture('cat.png')]);
+  await take([file('bad.stl', 'solid')]);
+  expect(problems.value).toEqual([{ name: 'bad.stl', why: 'it is damaged' }]);
+  expect(roles()).toEqual(['mesh bunny.stl', 'texture cat.png']);
+});
+
 test('a picture that came with a damaged model waits for a better one', async () => {
   await take([file('bad.stl', 'solid'), picture('cat.png')]);
   expect(problems.value).toEqual([{ name: 'bad.stl', why: 'it is damaged' }]);
   expect(names(waiting.value)).toEqual(['cat.png']);
 });
 
-test('a new model replaces the old one and its texture', async () => {
-  await take([stl(), picture('cat.png')]);
+test('a new model replaces the old one and its texture, but not the film', async () => {
+  await take([stl(), picture('cat.png'), file('film.toml', '[film]')]);
   await take([obj()]);
-  expect(roles()).toEqual(['mesh spot.obj']);
+  expect(roles()).toEqual(['mesh spot.obj', 'profile film.toml']);
+});
+
+test('a job needs none of the dropped files that its model names', async () => {
+  const from = { name: 'jobs/7', spec: { mesh: { name: 'spot.obj', asset: 'assets/1' } } };
+  change({ from: from as unknown as NonNullable<Draft['from']> });
+  const companions = kCompanions.map((name) => ({ name, is_missing: true }));
+  shape.value = shapeOf({ companions, has_texture_coordinates: true });
+  const skin = picture('skin.png');
+  await take([skin]);
+  expect(arrangement.value).toMatchObject({ texture: skin, missing: [] });
+  expect(asked.read).not.toHaveBeenCalled();
 });
 
 test('starting over forgets all files', async () => {

@@ -52,9 +52,9 @@ export function startOver(): void {
   });
 }
 
-/** Removes a file from the draft. */
+/** Removes a file from the draft, or from the files that are being read. */
 export const remove = (file: File): Promise<void> =>
-  readAll(without(draft.value.files, file), false, []);
+  readAll(without(pending?.files ?? draft.value.files, file), pending?.isNew ?? false, []);
 
 /**
  * Adds files to the draft. A new model replaces the old one and all files that belong to it.
