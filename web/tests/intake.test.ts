@@ -298,6 +298,16 @@ test('files that the daemon does not have any more are uploaded again, once', as
   expect(asked.upload).toHaveBeenCalledTimes(4);
 });
 
+test('a model that comes with too many files is refused before anything is sent', async () => {
+  const pictures = Array.from({ length: 257 }, (_, i) => picture(`${i}.png`));
+  await take([obj(), ...pictures]);
+  expect(asked.upload).not.toHaveBeenCalled();
+  expect(problems.value[0]).toMatchObject({
+    name: 'spot.obj',
+    why: expect.stringMatching(/257 files.*at most 256.*Combine/),
+  });
+});
+
 test('without the role Maker, a model is refused with the remedy', async () => {
   asked.may.mockReturnValue(false);
   await take([stl()]);
@@ -323,7 +333,7 @@ test('an upload that fails names its file', async () => {
   asked.upload.mockResolvedValue(refused('the disk is full', 'Delete old jobs'));
   await take([stl()]);
   expect(asked.read).not.toHaveBeenCalled();
-  expect(problems.value[0]!.why).toBe('bunny.stl: the disk is full. Delete old jobs');
+  expect(problems.value).toEqual([{ name: 'bunny.stl', why: 'the disk is full. Delete old jobs' }]);
 });
 
 test('a damaged model does not replace the one that is there', async () => {

@@ -7,6 +7,23 @@ import { draft } from './draft';
 export function FileList() {
   const { files } = draft.value;
   if (files.length === 0) return null;
+  const rest = files.slice(kMostShown);
+  return (
+    <>
+      <List files={files.slice(0, kMostShown)} />
+      {rest.length > 0 && (
+        <details>
+          <summary>{rest.length} more files</summary>
+          <List files={rest} />
+        </details>
+      )}
+    </>
+  );
+}
+
+const kMostShown = 8;
+
+function List({ files }: { files: readonly File[] }) {
   const { texture, unused } = arrangement.value;
   return (
     <ul class="files">

@@ -2,7 +2,7 @@
 import { batch, computed, signal } from '@preact/signals';
 import { arrange, isNamed, type Arrangement } from '../../model/arrangement';
 import { contradiction, nameFor, roleOf, type Role } from '../../model/files';
-import { done, refused, wordsOf, type Result } from '../../model/result';
+import { done, refused, wordsOf, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
 import { change, clear, draft, shape, unitOfFormat, type Shape } from './draft';
 import type { LayerChoices } from './picture/choices';
@@ -26,10 +26,22 @@ export const colourless = computed<Problem[]>(() => {
   const { missing, texture } = arrangement.value;
   const failure = shape.value?.colourless;
   if (missing.length === 0 && failure && !texture)
-    return [{ name: meshOf(draft.value.files)?.name ?? 'The model', why: wordsOf(failure) }];
+    return whyColourless(meshOf(draft.value.files), failure);
   const why = 'the model names this file. Add it, or choose another texture';
   return missing.map((name) => ({ name, why }));
 });
+
+const whyColourless = (mesh: File | undefined, failure: Failure): Problem[] => [
+  mesh
+    ? { name: mesh.name, why: wordsFor(mesh, failure) }
+    : { name: 'The model', why: wordsOf(failure) },
+];
+
+/** The words of a failure after the name of the file, which the worker's words begin with. */
+function wordsFor({ name }: File, failure: Failure): string {
+  const words = wordsOf(failure).replace(/^hydroprint-worker: /, '');
+  return words.startsWith(`${name}: `) ? words.slice(name.length + 2) : words;
+}
 
 /** Returns the model among the files. */
 export const meshOf = (files: readonly File[]): File | undefined => withRole(files, 'mesh')[0];
@@ -114,6 +126,9 @@ async function whyNot(file: File): Promise<string | undefined> {
   return contradiction(role, new Uint8Array(head));
 }
 
+/** A model, and InspectSpec.extra_files. */
+const kMostFiles = 1 + 256;
+
 /** The files that are being read, and whether they begin a new print. */
 let pending: { files: File[]; isNew: boolean; abort: AbortController } | undefined;
 /** The files from which the shown model was read. */
@@ -141,7 +156,7 @@ async function readAll(files: File[], isNew: boolean, bad: Problem[]): Promise<v
     const kept = files.filter((file) => !strays.includes(file));
     return use(kept, read.value, [...bad, ...whyStray(strays)], mesh);
   }
-  problems.value = [...bad, { name: mesh.name, why: wordsOf(read.failure) }];
+  problems.value = [...bad, { name: mesh.name, why: wordsFor(mesh, read.failure) }];
   // The files that came with the model wait for a better one.
   const hasModel = shape.value !== undefined || meshOf(draft.value.files) !== undefined;
   if (isNew && !hasModel) use(without(files, mesh), undefined, problems.value);
@@ -213,6 +228,11 @@ async function readFiles(
   const outgoing = [mesh, ...withRole(files, 'material'), ...withRole(files, 'image')].map(
     (file) => ({ name: nameFor(file), file }),
   );
+  if (outgoing.length > kMostFiles)
+    return refused(
+      `the model comes with ${outgoing.length - 1} files, but at most ${kMostFiles - 1} can be used`,
+      'Combine its textures in a 3D editor',
+    );
   const scale = isNew ? (unitOfFormat(mesh.name) ?? 1) : draft.value.scale;
   for (let isAgain = false; ; isAgain = true) {
     const brought = await bring(outgoing, (now) => (stage.value = now), signal);

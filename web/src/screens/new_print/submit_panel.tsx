@@ -94,12 +94,20 @@ function isBeside({ centre_mm: [x, y] }: Pose): boolean {
   return Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2;
 }
 
+/** True if the film would stay blank. */
+function lacksColours(): boolean {
+  const { spec } = draft.value.from ?? {};
+  const hasOwn = shape.value?.summary.has_colour;
+  return !hasOwn && !arrangement.value.texture && !spec?.texture && !spec?.paint;
+}
+
 /** Returns the reason why the draft cannot be submitted; undefined if it can. */
 function obstacle(): string | undefined {
   if (!shape.value) return 'Drop a model, or choose a sample';
   const remedy = remedyForMissing(arrangement.value.missing);
   if (remedy) return remedy;
   if (colourless.value.length > 0) return 'Correct the colours of the model, or choose a texture';
+  if (lacksColours()) return 'Add a picture, because the model has no colours';
   const poses = calibrated.value
     ? [calibrated.value.pose]
     : dipsOf(draft.value).map(({ pose }) => pose);
