@@ -53,7 +53,7 @@ export async function call<T>(
   if (response.ok) {
     if (method === 'HEAD' || response.status === 204) return done({} as T);
     const text = await response.text().catch(() => undefined);
-    if (text === undefined) return lost();
+    if (text === undefined) return unanswered(options);
     try {
       return done((text === '' ? {} : JSON.parse(text)) as T);
     } catch {
@@ -74,7 +74,7 @@ export async function fetchBytes(
   if (!answer.ok) return answer;
   if (!answer.value.ok) return { ok: false, failure: await failureOf(answer.value) };
   const bytes = await answer.value.arrayBuffer().catch(() => undefined);
-  return bytes ? done(bytes) : lost();
+  return bytes ? done(bytes) : unanswered(options);
 }
 
 async function send(method: Method, path: string, options: Options): Promise<Result<Response>> {
@@ -96,10 +96,12 @@ async function send(method: Method, path: string, options: Options): Promise<Res
     readClock(response);
     return done(response);
   } catch {
-    if (options.signal?.aborted) return refused('cancelled', undefined, { reason: 'ABORTED_HERE' });
-    return lost();
+    return unanswered(options);
   }
 }
+
+const unanswered = ({ signal }: Options) =>
+  signal?.aborted ? refused('cancelled', undefined, { reason: 'ABORTED_HERE' }) : lost();
 
 const lost = () =>
   refused(

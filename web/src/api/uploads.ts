@@ -24,11 +24,7 @@ export async function upload(
 ): Promise<Result<string>> {
   const hash = await sha256(file, signal).catch(() => undefined);
   if (signal.aborted) return refused('cancelled', undefined, { reason: 'ABORTED_HERE' });
-  if (!hash)
-    return refused(
-      'the file cannot be read; it may have been moved or changed',
-      'Choose the file again',
-    );
+  if (!hash) return unreadable;
   const resumable = new ResumableUpload(hash);
   let share = 0;
   for (let lost = 0; ; ) {
@@ -55,6 +51,11 @@ export async function upload(
     lost += 1;
   }
 }
+
+const unreadable = refused(
+  'the file cannot be read; it may have been moved or changed',
+  'Choose the file again',
+);
 
 const passes = (status: number | undefined, reason: string | undefined): boolean =>
   status === 0 ||
@@ -85,8 +86,14 @@ async function step(
     resumable.offset = Number(known.value.receivedBytes);
     return done({ receivedBytes: resumable.offset });
   }
+  // Read here, because fetch() does not tell a changed file from a lost connection.
+  const chunk = await file
+    .slice(offset, offset + kChunk)
+    .arrayBuffer()
+    .catch(() => undefined);
+  if (!chunk) return unreadable;
   const sent = await call<Partial<Asset>>('PATCH', resumable.name, {
-    bytes: file.slice(offset, offset + kChunk),
+    bytes: new Blob([chunk]),
     headers: { 'Upload-Offset': String(offset), 'Content-Type': 'application/offset+octet-stream' },
     signal,
   });

@@ -2,8 +2,11 @@ import { useEffect } from 'preact/hooks';
 import { formatFactor, formatSeconds, formatShare } from '../../model/units';
 import { Figures, Progress } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
-import { shape } from './draft';
+import { draft, shape } from './draft';
 import { followPreview, isComputing, shown, trouble } from './preview';
+
+/** Previews are Stokes flow, even if the print will be computed by another model. */
+const kOfStokes = ['stretch_beyond_stokes', 'drag_ignored'];
 
 /** Preview of the print in the current pose. */
 export function PreviewPanel() {
@@ -17,6 +20,7 @@ export function PreviewPanel() {
   const now = shown.value;
   if (!now && !isComputing.value) return null;
   const known = new Set(shape.value?.summary.warnings?.map(({ message }) => message));
+  const isStokes = draft.value.model === 'MODEL_STOKES';
   return (
     <section aria-labelledby="preview-title" aria-live="polite">
       <h2 id="preview-title">Preview</h2>
@@ -36,6 +40,7 @@ export function PreviewPanel() {
       <ul class="problems">
         {now?.warnings
           .filter(({ message }) => !known.has(message))
+          .filter(({ code }) => isStokes || !kOfStokes.includes(code))
           .map(({ code, message, where }) => (
             <li key={code + where}>
               <Icon name="warning" /> {message}.

@@ -94,7 +94,7 @@ async function readPatiently(
     const read = await daemon.read({ ...source, ...how }, signal);
     if (read.ok) return done({ ...read.value, source });
     const why = whyWait(read.failure);
-    if (!why) return read;
+    if (!why || signal.aborted) return read;
     stage.value = { text: why };
     await pause(tries);
     if (signal.aborted) return refused('cancelled', undefined, { reason: 'ABORTED_HERE' });
