@@ -8,11 +8,11 @@ import { addPeople, asAdmin, come, signIn } from './accounts';
 import { open, visit } from './browser';
 import { look } from './checks';
 import { bin, kLanHost } from './daemon';
-import { ballGlb, makeBall, stripes } from './models';
+import { ballGlb, coverage, makeBall, previewOf, stripes } from './models';
 import { imageIn } from './pdf';
 import { rareTest, usePlace } from './place';
 import { startProxy } from './proxy';
-import { ball, fineRing } from './solids';
+import { ball, fineRing, leaf } from './solids';
 
 const there = usePlace(({ daemon }) => addPeople(daemon.address));
 
@@ -281,12 +281,9 @@ rareTest('while the object is turned, a preview shows coverage, stretch and warn
   const { obj, mtl, png } = files();
   await page.locator('input[type=file]').first().setInputFiles([obj, mtl, png]);
   await page.getByLabel('Longest side').fill('40');
-  const panel = page.getByRole('region', { name: 'Preview' });
-  const reached = async (): Promise<number> =>
-    Number(/Coverage\s*([\d.]+) %/.exec(await panel.innerText())?.[1]);
-  await panel.waitFor({ timeout: 60_000 });
+  const panel = previewOf(page);
   // The ball is dipped fully; the film reaches all of it except the part that its own shape shields.
-  expect(await reached()).toBeGreaterThan(60);
+  expect(await coverage(page)).toBeGreaterThan(60);
   await expect.poll(() => panel.locator('.problems li').count()).toBeGreaterThan(0);
   await page.getByRole('radio', { name: 'Stretch' }).check();
   await page.getByText('Stretch of the film (estimate) [×]').waitFor();
@@ -298,7 +295,7 @@ rareTest('while the object is turned, a preview shows coverage, stretch and warn
   await page.getByLabel('Depth').fill('8');
   await asked;
   await expect.poll(() => panel.innerText()).not.toBe(before);
-  expect(await reached()).toBeLessThan(60);
+  expect(await coverage(page)).toBeLessThan(60);
   // Beside the film, the page reports that the film does not reach the object.
   await page.getByLabel('Offset to the right').fill('400');
   await panel.waitFor({ state: 'hidden' });
@@ -315,9 +312,7 @@ rareTest('a mesh of 1,000,000 triangles previews', async () => {
   const stl = join(mkdtempSync(join(there.daemon.folder, 'ring-')), 'ring.stl');
   writeFileSync(stl, fineRing());
   await page.locator('input[type=file]').first().setInputFiles(stl);
-  const panel = page.getByRole('region', { name: 'Preview' });
-  await panel.waitFor({ timeout: 120_000 });
-  expect(Number(/Coverage\s*([\d.]+) %/.exec(await panel.innerText())?.[1])).toBeGreaterThan(50);
+  expect(await coverage(page)).toBeGreaterThan(50);
   await page.getByRole('radio', { name: 'Stretch' }).check();
   await look(person, 'new-print-fine-mesh');
   expect(person.complaints).toEqual([]);
@@ -335,7 +330,7 @@ rareTest(
     expect(await page.getByLabel('Longest side').inputValue()).toBe('60');
     expect(await page.getByLabel('One unit is').inputValue()).toBe('1000');
     expect(await page.getByRole('radio', { name: 'm', exact: true }).isChecked()).toBe(true);
-    await page.getByRole('region', { name: 'Preview' }).waitFor({ timeout: 60_000 });
+    expect(await coverage(page)).toBeGreaterThan(0);
     await look(person, 'new-print-glb');
     await page.getByLabel('Resolution').selectOption('150 dpi');
     await page.getByText('More settings').click();
@@ -437,20 +432,21 @@ rareTest('a picture waits for its model; a missing texture blocks the simulation
 
   await page.getByRole('button', { name: 'Start over' }).click();
   await put([obj, mtl]);
-  await page.getByText('Add "ball.png", which ball.mtl names, or choose another texture').waitFor();
+  await page
+    .getByText('Add "ball.png", which the model names, or choose another texture')
+    .waitFor();
   expect(await simulate.isDisabled()).toBe(true);
   await look(person, 'new-print-missing');
   await put([png]);
   await page.getByText('Computes the film image').waitFor();
   expect(await simulate.isEnabled()).toBe(true);
 
-  const stl = 'solid\nouter loop\nvertex 0 0 0\nvertex 30 0 0\nvertex 0 30 9\nendloop\nendsolid';
   await page.getByRole('button', { name: 'Start over' }).click();
   await put([png]);
   await page.getByText('ball.png waits for a model').waitFor();
   await page
     .locator('input[type=file]')
-    .setInputFiles([{ name: 'leaf.stl', mimeType: 'model/stl', buffer: Buffer.from(stl) }]);
+    .setInputFiles([{ name: 'leaf.stl', mimeType: 'model/stl', buffer: leaf() }]);
   await page.getByText('The picture is projected from below, as the film sees').waitFor();
   await page.getByRole('radio', { name: 'Three sides' }).check();
   await page.getByLabel('Turn of the picture').fill('90');

@@ -147,6 +147,16 @@ export function ballWithColours(): Buffer {
   );
 }
 
+/** A triangle as STL in ASCII. */
+export const leaf = (): Buffer =>
+  Buffer.from(
+    [
+      ...['solid leaf', 'facet normal 0 0 0', 'outer loop'],
+      ...['vertex 0 0 0', 'vertex 30 0 0', 'vertex 0 30 9'],
+      ...['endloop', 'endfacet', 'endsolid leaf', ''],
+    ].join('\n'),
+  );
+
 /** A tube of radius 9 mm, bent by a third of a turn around a radius of 32 mm. */
 export function bentTube(): Buffer {
   const [around, along] = [40, 48];
