@@ -3,19 +3,16 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { fileURLToPath } from 'node:url';
-import type { Browser, Page } from 'playwright-core';
-import { createServer, type ViteDevServer } from 'vite';
-import { afterAll, beforeAll, expect, test } from 'vitest';
+import { beforeAll, expect, test } from 'vitest';
 import type { Vec3 } from '../src/model/pose';
 import { layerSpec } from '../src/paint/layer';
-import { launch } from './browser';
 import { bin, root } from './daemon';
 import {
   kCases,
   kColourCases,
   kUvCases,
   pictures,
+  usePaintPage,
   type Case,
   type PictureName,
 } from './paint_cases';
@@ -42,33 +39,11 @@ const kViews: { name: string; direction: Vec3; up: Vec3 }[] = [
 
 const folder = mkdtempSync(join(tmpdir(), 'paint-'));
 const files = pictures();
-let server: ViteDevServer;
-let browser: Browser;
-let page: Page;
+const place = usePaintPage();
 
-beforeAll(async () => {
+beforeAll(() => {
   for (const [name, bytes] of Object.entries(files)) writeFileSync(join(folder, name), bytes);
   for (const [name, solid] of Object.entries(kSolids)) writeFileSync(join(folder, name), solid());
-  server = await createServer({
-    root: fileURLToPath(new URL('..', import.meta.url)),
-    logLevel: 'error',
-    server: { port: 0, host: '127.0.0.1' },
-  });
-  await server.listen();
-  browser = await launch();
-  page = await browser.newPage();
-  page.on('pageerror', (error) => console.error(error));
-  page.on('console', (message) => {
-    const isOfPage = message.location().url.includes('/e2e/') || message.text().includes('THREE');
-    if (message.type() === 'error' && isOfPage) console.error(message.text());
-  });
-  await page.goto(`${server.resolvedUrls!.local[0]}e2e/paint_page.html`);
-  await page.waitForFunction(() => 'drawPaint' in window);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server?.close();
 });
 
 type View = (typeof kViews)[number];
@@ -99,7 +74,8 @@ async function byPage(solid: SolidName, { base_colour, layers }: Case, view: Vie
     direction: view.direction,
     up: view.up,
   };
-  return Buffer.from(await page.evaluate((asked) => window.drawPaint(asked), drawing), 'base64');
+  const pixels = await place.page.evaluate((asked) => window.drawPaint(asked), drawing);
+  return Buffer.from(pixels, 'base64');
 }
 
 async function byWorker(solid: SolidName, { base_colour, layers }: Case, view: View) {
@@ -116,7 +92,7 @@ async function byWorker(solid: SolidName, { base_colour, layers }: Case, view: V
     `--up=${view.up.join()}`,
   ]);
   const png = readFileSync(out).toString('base64');
-  return Buffer.from(await page.evaluate((bytes) => window.readPng(bytes), png), 'base64');
+  return Buffer.from(await place.page.evaluate((bytes) => window.readPng(bytes), png), 'base64');
 }
 
 /** Whether a pixel and those around it are covered in both pictures. */

@@ -1,6 +1,11 @@
-/** Paints for paint.e2e.ts. */
+/** Paints for paint.e2e.ts, and the page that draws them. */
+import { fileURLToPath } from 'node:url';
+import type { Browser, Page } from 'playwright-core';
+import { createServer, type ViteDevServer } from 'vite';
+import { afterAll, beforeAll } from 'vitest';
 import type { Vec3 } from '../src/model/pose';
 import type { PaintLayer } from '../src/paint/layer';
+import { launch } from './browser';
 import { pngOf } from './png';
 
 export interface Case {
@@ -160,3 +165,32 @@ export const kColourCases: Case[] = [
     ],
   },
 ];
+
+/** Opens paint_page.html for the tests of a file. */
+export function usePaintPage(): { page: Page } {
+  const place = {} as { page: Page };
+  let server: ViteDevServer;
+  let browser: Browser;
+  beforeAll(async () => {
+    server = await createServer({
+      root: fileURLToPath(new URL('..', import.meta.url)),
+      logLevel: 'error',
+      server: { port: 0, host: '127.0.0.1' },
+    });
+    await server.listen();
+    browser = await launch();
+    place.page = await browser.newPage();
+    place.page.on('pageerror', (error) => console.error(error));
+    place.page.on('console', (message) => {
+      const isOfPage = message.location().url.includes('/e2e/') || message.text().includes('THREE');
+      if (message.type() === 'error' && isOfPage) console.error(message.text());
+    });
+    await place.page.goto(`${server.resolvedUrls!.local[0]}e2e/paint_page.html`);
+    await place.page.waitForFunction(() => 'drawPaint' in window);
+  });
+  afterAll(async () => {
+    await browser?.close();
+    await server?.close();
+  });
+  return place;
+}

@@ -1,18 +1,21 @@
-/** Draws paints with the page's materials for paint.e2e.ts: without light, and with an orthographic camera. */
+/**
+ * Draws models and paints with the page's materials for paint.e2e.ts and reading.e2e.ts: without light, and with an
+ * orthographic camera.
+ */
 import { OrthographicCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { modelOf } from '../src/engine/model';
 import { centreOf } from '../src/model/mesh';
 import type { Vec3 } from '../src/model/pose';
 import type { PaintLayer } from '../src/paint/layer';
-import { readPicture } from '../src/paint/paint';
+import { readPicture, type Paint } from '../src/paint/paint';
 import { PaintedObject } from '../src/paint/painted_object';
 
 export interface Drawing {
   /** The mesh as `inspect` returns it (model.glb), base64. */
   mesh: string;
   base_colour?: string;
-  /** `picture`: a PNG, base64. */
-  layers: { layer: PaintLayer; picture?: string; colour?: string }[];
+  /** `picture`: a PNG, base64. Without layers, the model is drawn in its own colours. */
+  layers?: { layer: PaintLayer; picture?: string; colour?: string }[];
   pixels: number;
   half_mm: number;
   direction: Vec3;
@@ -37,9 +40,18 @@ function cameraOf({ half_mm: h, direction, up }: Drawing, middle: Vector3): Orth
   return camera;
 }
 
+async function paintOf({ layers, base_colour }: Drawing): Promise<Paint | undefined> {
+  const withPictures = layers?.map(async ({ layer, picture, colour }) => ({
+    layer,
+    colour,
+    picture: picture ? await readPicture(new Blob([bytesOf(picture)])) : undefined,
+  }));
+  return withPictures && { base_colour, layers: await Promise.all(withPictures) };
+}
+
 /** Returns the pixels, red, green, blue, alpha, from the upper left; base64. Alpha is 0 where nothing is seen. */
 async function draw(drawing: Drawing): Promise<string> {
-  const { pixels, layers, base_colour } = drawing;
+  const { pixels } = drawing;
   const renderer = new WebGLRenderer({ alpha: true, preserveDrawingBuffer: true });
   renderer.setSize(pixels, pixels);
   const painted = new PaintedObject(renderer, () => {}, false);
@@ -47,12 +59,7 @@ async function draw(drawing: Drawing): Promise<string> {
   if (!read.ok) throw new Error(read.failure.what);
   const { mesh, box } = read.value;
   painted.setMesh(mesh, box, 1);
-  const withPictures = layers.map(async ({ layer, picture, colour }) => ({
-    layer,
-    colour,
-    picture: picture ? await readPicture(new Blob([bytesOf(picture)])) : undefined,
-  }));
-  painted.setPaint({ base_colour, layers: await Promise.all(withPictures) });
+  painted.setPaint(await paintOf(drawing));
   await painted.settled();
   const scene = new Scene();
   scene.add(painted.object);

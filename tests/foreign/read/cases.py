@@ -80,17 +80,21 @@ def film_colours(path: pathlib.Path) -> dict[str, np.ndarray]:
     return out
 
 
+def landed_mm(film_mm: np.ndarray, radius_mm: float) -> np.ndarray:
+    """Where points of the film land on a sphere in its middle, as (x, y) from the sphere's centre."""
+    distance = np.linalg.norm(film_mm, axis=1)
+    theta = closed_form.Sphere(radius_mm, FILM_MM).theta_rad(distance)
+    return film_mm * (radius_mm * np.sin(theta) / distance)[:, None]
+
+
 def model_colours(model: Scene) -> dict[str, np.ndarray]:
     """The median colour seen from below where the same points of the film land on the sphere: the middle of its bounding
     box is above the centre of the film."""
     low, high = model.box
     radius = (high[0] - low[0]) / 2
-    sphere = closed_form.Sphere(radius, FILM_MM)
     out = {}
     for name, signs in QUADRANTS.items():
-        film = film_places(signs)
-        distance = np.linalg.norm(film, axis=1)
-        landed = film * (radius * np.sin(sphere.theta_rad(distance)) / distance)[:, None]
+        landed = landed_mm(film_places(signs), radius)
         hits = scene.lowest_hits(model, (low[:2] + high[:2]) / 2 + landed)
         out[name] = np.median(scene.shown(model, hits), axis=0)  # NaN if a ray meets nothing
     return out
