@@ -176,6 +176,8 @@ export function usePaintPage(): { page: Page } {
       root: fileURLToPath(new URL('..', import.meta.url)),
       logLevel: 'error',
       server: { port: 0, host: '127.0.0.1' },
+      // Vite reloads a page when it finds a package that it has not prepared, as those that are imported late.
+      optimizeDeps: { include: ['three', 'three/addons/loaders/GLTFLoader.js'] },
     });
     await server.listen();
     browser = await launch();
