@@ -104,7 +104,7 @@ test('the rig is taken, armed, homed, moved and jogged, and stopped from another
   expect(operator.complaints.concat(other.complaints)).toEqual([]);
 });
 
-test('a number out of range stays as typed, and nothing moves', async () => {
+rareTest('a number out of range stays as typed, and nothing moves', async () => {
   const person = await come(there, 'otto', 'rig');
   const { page } = person;
   const target = page.getByLabel('Move to');
