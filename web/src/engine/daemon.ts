@@ -2,8 +2,7 @@
 import { fetchBytes } from '../api/call';
 import type { Preview } from '../api/types';
 import { done, refused, type Result } from '../model/result';
-import type { DipPreview, Engine } from './engine';
-import { modelOf } from './model';
+import type { DipPreview, Engine, Model } from './engine';
 
 const kLineFeed = 10;
 
@@ -16,6 +15,14 @@ export function previewOf(bytes: ArrayBuffer): Result<DipPreview> {
   } catch {
     return refused('the preview cannot be read', 'Reload the page');
   }
+}
+
+/** Reads a model. The code for that is not part of the first screen. */
+async function modelOf(bytes: ArrayBuffer): Promise<Result<Model>> {
+  const code = await import('./model').catch(() => undefined);
+  return code
+    ? code.modelOf(bytes)
+    : refused('the daemon does not answer', undefined, { status: 0 });
 }
 
 /** Sends a request whose response is bytes. */

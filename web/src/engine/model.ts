@@ -1,4 +1,4 @@
-/** Reads the binary glTF that the daemon makes of a model (DisplayModel in the API). The code for that is loaded only now. */
+/** Reads the binary glTF that the daemon makes of a model (DisplayModel in the API). */
 import type { BufferAttribute, Mesh as Mesh3, MeshBasicMaterial, Texture, Vector3 } from 'three';
 import type { GLTF, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { Box, Look, Mesh, Wrap } from '../model/mesh';
