@@ -304,7 +304,7 @@ rareTest('a file that changes on the disk meanwhile is refused in words', async 
   await seesObject(page);
   await coverage(page);
 
-  // After the object was shown, the job would be another than what is seen.
+  // The file changes after its model was shown. Simulate must not send the new one.
   writeFileSync(files[0]!, readFileSync(small('changing', 3)[0]!));
   await page.getByRole('button', { name: 'Simulate' }).click();
   await page.locator('.submit').getByText('Choose the file again').waitFor();

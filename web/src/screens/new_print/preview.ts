@@ -50,7 +50,7 @@ function keepFigures(spec: SimulateSpecInput, dip: Dip, figures: Figures) {
   seen.value = { of, figures: new Map([...known, [keyOf(dip), figures]]) };
 }
 
-/** Why there is no preview, and what to do. */
+/** The reason why there is no preview, with its remedy; empty otherwise. */
 export const trouble = signal('');
 export const isComputing = signal(false);
 

@@ -6,8 +6,9 @@ import { daemon } from '../../engine/daemon';
 import { refused, done, type Failure, type Result } from '../../model/result';
 import type { Shape } from './draft';
 
-/** What is being done, in words. */
+/** What the page is doing with a model. */
 export interface Stage {
+  /** For display: "Uploading spot.obj". */
   text: string;
   /** Share that is done; undefined if it is not known. */
   share?: number;
