@@ -8,10 +8,10 @@
 
 #include "daemon/config/bind_policy.h"
 #include "daemon/config/rig_config_check.h"
+#include "daemon/confine/landlock.h"
 #include "daemon/metrics/health.h"
 #include "daemon/platform/log.h"
 #include "daemon/store/database/schema.h"
-#include "daemon/workers/landlock.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -30,6 +30,7 @@ int core_count() {
 PoolOptions pool_options(const Config& config) {
   PoolOptions options;
   options.program = config.workers_program;
+  options.confine_program = config.confine_program;
   options.cores = core_count();
   options.slots = config.workers_count > 0 ? static_cast<int>(config.workers_count) : options.cores;
   options.threads = static_cast<int>(config.workers_threads);
@@ -42,6 +43,7 @@ PoolOptions pool_options(const Config& config) {
 PreviewOptions preview_options(const PoolOptions& pool) {
   const std::int64_t a_day_s = 24LL * 3600;  // limit on the processor time of one worker
   return {pool.program,
+          pool.confine_program,
           pool.threads > 0 ? pool.threads : pool.cores,
           {pool.memory_bytes, a_day_s, pool.file_bytes}};
 }
@@ -136,7 +138,7 @@ Status Daemon::open_certificate(const Config& config) {
   HP_ASSIGN_OR_RETURN(
       certificate_, CertificateReloader::open(config.server_tls_certificate, config.server_tls_key,
                                               system_clock_ms));
-  if (is_within_ruleset(config.server_tls_key, config.workers_program)) {
+  if (confine::is_within_ruleset(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
         {{"message",
           fmt::format(
@@ -238,7 +240,7 @@ Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(server_,
                       Server::start(endpoint, config.server_reflection, backend, identity()));
   HP_RETURN_IF_ERROR(start_http(config, backend));
-  if (!fences_work()) {
+  if (confine::landlock_version() == 0) {
     log(LogLevel::kWarning, "files_not_fenced",
         {{"message",
           "this kernel has no Landlock, so workers can read all files of this user; use a kernel "

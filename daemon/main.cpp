@@ -80,6 +80,7 @@ Result<Config> configure(const Options& options, const char* argv0) {
   if (!options.rig.empty()) config.rig_drive = options.rig;
   if (!options.rig_profile.empty()) config.rig_profile = options.rig_profile;
   if (config.workers_program.empty()) config.workers_program = beside(argv0, "hydroprint-worker");
+  config.confine_program = beside(argv0, "hydroprint-confine");
   if (config.camera_program.empty()) config.camera_program = beside(argv0, "hydroprint-capture");
   if (config.server_web_dir.empty()) config.server_web_dir = web_dir(argv0);
   if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {

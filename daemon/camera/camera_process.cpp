@@ -43,14 +43,13 @@ CameraProcess::CameraProcess(std::filesystem::path folder, std::chrono::seconds 
       last_output_(std::chrono::steady_clock::now()) {}
 
 Result<std::unique_ptr<CameraProcess>> CameraProcess::start(const CameraConfig& camera,
-                                                            const Sandbox& sandbox,
                                                             const Layout& layout) {
   std::unique_ptr<CameraProcess> process(new CameraProcess(
       layout.live_camera(), std::chrono::seconds(camera.patience_s) + kStartupMargin));
   const Launch launched = launch_of(camera, process->folder_);
   HP_RETURN_IF_ERROR(make_folder(launched.inputs));
   HP_RETURN_IF_ERROR(make_folder(launched.work));
-  HP_ASSIGN_OR_RETURN(process->process_, launch(launched, sandbox));
+  HP_ASSIGN_OR_RETURN(process->process_, launch(launched));
   return process;
 }
 

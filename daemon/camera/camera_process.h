@@ -11,7 +11,6 @@
 #include "daemon/store/state_layout.h"
 #include "daemon/workers/child_process.h"
 #include "daemon/workers/message_framing.h"
-#include "daemon/workers/sandbox.h"
 
 namespace hydroprint::daemon {
 
@@ -23,7 +22,6 @@ class CameraProcess {
 
   /// @return kInternal, WORKER_UNUSABLE
   [[nodiscard]] static Result<std::unique_ptr<CameraProcess>> start(const CameraConfig& camera,
-                                                                    const Sandbox& sandbox,
                                                                     const Layout& layout);
   /// Kills the process and waits at most 2 s, because it may hang in the kernel.
   ~CameraProcess();

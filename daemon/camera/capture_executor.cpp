@@ -45,9 +45,7 @@ void wait_for(const WorkerRun& run) {
 }  // namespace
 
 Result<std::unique_ptr<CaptureExecutor>> CaptureExecutor::make(CaptureDependencies dependencies) {
-  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
-  return std::unique_ptr<CaptureExecutor>(
-      new CaptureExecutor(std::move(dependencies), std::move(sandbox)));
+  return std::unique_ptr<CaptureExecutor>(new CaptureExecutor(std::move(dependencies)));
 }
 
 CaptureExecutor::~CaptureExecutor() { stop(); }
@@ -117,7 +115,7 @@ Status CaptureExecutor::run(const Job& job, double seconds) {
   const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +
                                    dependencies_.camera.patience_s);
   HP_ASSIGN_OR_RETURN(const auto run,
-                      WorkerRun::start(job, launch, sandbox_, dependencies_.layout, limit, [] {}));
+                      WorkerRun::start(job, launch, dependencies_.layout, limit, [] {}));
   while (!run->step(dependencies_.jobs, dependencies_.clock())) {
     if (left_) run->stop(StopReason::kShutdown);
     if (cancelled_) run->stop(StopReason::kCancel);

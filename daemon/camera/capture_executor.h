@@ -14,7 +14,6 @@
 #include "daemon/store/calibration_store.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
-#include "daemon/workers/sandbox.h"
 
 namespace hydroprint::daemon {
 
@@ -54,14 +53,13 @@ class CaptureExecutor final : public JobExecutor {
 
  private:
   [[nodiscard]] Status check_camera_and_rig() const;
-  CaptureExecutor(CaptureDependencies dependencies, Sandbox sandbox)
-      : dependencies_(std::move(dependencies)), sandbox_(std::move(sandbox)) {}
+  explicit CaptureExecutor(CaptureDependencies dependencies)
+      : dependencies_(std::move(dependencies)) {}
   void go(const Job& job, double seconds);
   [[nodiscard]] Status run(const Job& job, double seconds);
   void give_up(const Job& job, const Error& error);
 
   CaptureDependencies dependencies_;
-  Sandbox sandbox_;
   std::mutex mutex_;
   bool end_ = false;  // no further captures
   std::atomic<std::int64_t> job_{0}, latest_ms_{0};

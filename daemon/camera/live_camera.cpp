@@ -61,17 +61,13 @@ class Waiting {
 
 }  // namespace
 
-LiveCamera::LiveCamera(CameraConfig camera, Layout layout, Clock clock, Sandbox sandbox)
-    : camera_(std::move(camera)),
-      layout_(std::move(layout)),
-      clock_(std::move(clock)),
-      sandbox_(std::move(sandbox)) {}
+LiveCamera::LiveCamera(CameraConfig camera, Layout layout, Clock clock)
+    : camera_(std::move(camera)), layout_(std::move(layout)), clock_(std::move(clock)) {}
 
 Result<std::unique_ptr<LiveCamera>> LiveCamera::make(CameraConfig camera, Layout layout,
                                                      Clock clock) {
-  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
   std::unique_ptr<LiveCamera> live_camera(
-      new LiveCamera(std::move(camera), std::move(layout), std::move(clock), std::move(sandbox)));
+      new LiveCamera(std::move(camera), std::move(layout), std::move(clock)));
   live_camera->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!live_camera->wake_.valid()) return system_failure("eventfd", "cannot be created");
   live_camera->thread_ = std::thread([&live = *live_camera] { live.work(); });
@@ -203,7 +199,7 @@ void LiveCamera::step(Time now) {
 }
 
 void LiveCamera::begin(Time now) {
-  auto started = CameraProcess::start(camera_, sandbox_, layout_);
+  auto started = CameraProcess::start(camera_, layout_);
   if (!started) return fail_for_now(std::move(started.error()), now);
   process_ = std::move(*started);
   log(LogLevel::kDebug, "live_camera_started", {});

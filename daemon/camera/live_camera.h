@@ -63,7 +63,7 @@ class LiveCamera {
  private:
   using Time = CameraProcess::Time;
 
-  LiveCamera(CameraConfig camera, Layout layout, Clock clock, Sandbox sandbox);
+  LiveCamera(CameraConfig camera, Layout layout, Clock clock);
   [[nodiscard]] std::optional<Result<LivePicture>> available_answer(Time now) const;
   void release();
   void wake();
@@ -77,7 +77,6 @@ class LiveCamera {
   const CameraConfig camera_;
   const Layout layout_;
   const Clock clock_;
-  const Sandbox sandbox_;
   UniqueFd wake_;
   mutable std::mutex mutex_;
   std::condition_variable change_;

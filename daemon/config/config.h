@@ -33,6 +33,7 @@ struct Config {
   std::int64_t queue_max_jobs = 1000;            ///< queue.max_jobs
   std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
   std::string workers_program;                   ///< workers.program; empty: next to hydroprintd
+  std::string confine_program;                   ///< hydroprint-confine; not a key of the file
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
   /// workers.threads per worker; 0: the cores are divided among the workers.
   std::int64_t workers_threads = 0;

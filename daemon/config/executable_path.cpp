@@ -24,10 +24,14 @@ fs::path own_program(const std::string& argv0, const std::string& search_path,
                      const fs::path& link) {
   std::error_code error;
   if (fs::path file = fs::read_symlink(link, error); !error) return file;
-  if (argv0.find('/') != std::string::npos) return program_at(argv0);
+  return find_program(argv0, search_path);
+}
+
+fs::path find_program(const std::string& name, const std::string& search_path) {
+  if (name.find('/') != std::string::npos) return program_at(name);
   std::istringstream folders(search_path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    fs::path file = program_at(fs::path(folder.empty() ? "." : folder) / argv0);
+    fs::path file = program_at(fs::path(folder.empty() ? "." : folder) / name);
     if (!file.empty()) return file;
   }
   return {};

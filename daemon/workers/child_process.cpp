@@ -16,7 +16,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "daemon/workers/landlock.h"
+#include "daemon/workers/worker_outcome.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -75,19 +75,11 @@ struct ChildPlan {
   char* const* arguments;
   char* const* environment;
   const char* folder;
-  int requests, progress, errors, answer, ruleset;
+  int requests, progress, errors, answer;
   pid_t parent;
-  bool confined;
+  const confine::Limits* limits;  // nullptr: the program sets them
   int niceness;
 };
-
-[[noreturn]] void give_up(const char* what) {
-  const char* const reason = ::strerrordesc_np(errno);
-  for (const char* part : {"the worker cannot be started: ", what, ": ", reason, "\n"}) {
-    if (::write(2, part, std::strlen(part)) < 0) break;
-  }
-  ::_exit(127);
-}
 
 // Does not change the priority if the daemon already runs at this nice value or a greater one: if
 // it runs as root, the call would raise the priority of its workers.
@@ -96,8 +88,7 @@ void give_way(int niceness) {
   if (::setpriority(PRIO_PROCESS, 0, niceness) != 0) errno = 0;  // not essential
 }
 
-[[noreturn]] void become_worker(const ChildPlan& plan, const Limits& limits,
-                                const Sandbox& sandbox) {
+[[noreturn]] void become_worker(const ChildPlan& plan) {
   ::dup2(plan.errors, 2);
   ::dup2(plan.requests, 0);
   ::dup2(plan.answer, 1);
@@ -109,15 +100,34 @@ void give_way(int niceness) {
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
-  if (::chdir(plan.folder) != 0) give_up(plan.folder);
+  if (::chdir(plan.folder) != 0) confine::give_up(plan.folder);
   give_way(plan.niceness);
-  if (const char* problem =
-          plan.confined ? sandbox.confine(limits, plan.ruleset) : Sandbox::limit_use(limits)) {
-    give_up(problem);
+  if (plan.limits != nullptr) {
+    if (const char* const step = confine::limit_use(*plan.limits)) confine::give_up(step);
   }
   ::close_range(kProgressFd + 1, ~0U, 0);
   ::execve(plan.program, plan.arguments, plan.environment);
-  give_up(plan.program);
+  confine::give_up(plan.program);
+}
+
+std::string in_mib(std::int64_t bytes) {
+  constexpr std::int64_t kMiB = 1 << 20;
+  return bytes > 0 ? std::to_string((bytes + kMiB - 1) / kMiB) : "unlimited";
+}
+
+// Returns the command that runs a program: its own, or that of hydroprint-confine.
+std::vector<std::string> command_of(const Launch& what) {
+  std::vector<std::string> out;
+  if (what.confined) {
+    out = {what.confine_program.string(), "--inputs=" + what.inputs.string(),
+           "--work=" + what.work.string(), "--memory-mib=" + in_mib(what.limits.memory_bytes),
+           "--file-mib=" + in_mib(what.limits.file_bytes)};
+    if (what.limits.cpu_s > 0) out.push_back(fmt::format("--cpu-s={}", what.limits.cpu_s));
+    out.emplace_back("--");
+  }
+  out.push_back(what.program.string());
+  out.insert(out.end(), what.arguments.begin(), what.arguments.end());
+  return out;
 }
 
 }  // namespace
@@ -126,23 +136,23 @@ std::vector<std::string> spec_options(const std::filesystem::path& spec_file) {
   return {"--spec=" + spec_file.string(), "--inputs=."};
 }
 
-Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
+Result<ChildProcess> launch(const Launch& what) {
   HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe answer, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe requests, make_stdin(what.is_asked));
-  HP_ASSIGN_OR_RETURN(const UniqueFd ruleset, make_ruleset(what.program, what.inputs, what.work));
-  std::vector<std::string> arguments = what.arguments;
-  arguments.insert(arguments.begin(), what.program.string());
+  std::vector<std::string> arguments = command_of(what);
   std::vector<std::string> environment = make_environment(what.work);
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
-  const ChildPlan plan{what.program.c_str(), argv.data(),         envp.data(),
-                       what.inputs.c_str(),  requests.read.get(), progress.write.get(),
-                       errors.write.get(),   answer.write.get(),  ruleset.get(),
-                       ::getpid(),           what.confined,       what.niceness};
+  const ChildPlan plan{argv.front(),        argv.data(),
+                       envp.data(),         what.inputs.c_str(),
+                       requests.read.get(), progress.write.get(),
+                       errors.write.get(),  answer.write.get(),
+                       ::getpid(),          what.confined ? nullptr : &what.limits,
+                       what.niceness};
   ChildProcess worker;
   worker.pid = ::fork();
-  if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
+  if (worker.pid == 0) become_worker(plan);
   if (worker.pid < 0) {
     return fail(
         Code::kInternal,
@@ -158,6 +168,26 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   worker.answer = std::move(answer.read);
   worker.requests = std::move(requests.write);
   return worker;
+}
+
+Status check_confinement(const std::filesystem::path& confine_program) {
+  constexpr std::chrono::seconds kPatience{30};
+  if (std::error_code ignored; !std::filesystem::exists(confine_program, ignored)) {
+    return fail(Code::kFailedPrecondition,
+                confine_program.string() +
+                    ": this program does not exist; install it in the folder of hydroprintd");
+  }
+  HP_ASSIGN_OR_RETURN(const ChildProcess check, launch({.program = confine_program,
+                                                        .arguments = {"--check"},
+                                                        .inputs = "/",
+                                                        .confined = false}));
+  const std::optional<int> ended = wait_for_end(check, kPatience);
+  const int wait_status = ended ? *ended : kill_and_wait(check);
+  if (wait_status == 0) return {};
+  std::string words;
+  (void)drain(check.errors, words, 1 << 16);
+  return fail(Code::kFailedPrecondition, fmt::format("{} --check: {}", confine_program.string(),
+                                                     words.empty() ? "failed" : last_line(words)));
 }
 
 void signal_group(const ChildProcess& worker, int signal) {

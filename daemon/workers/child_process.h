@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "daemon/confine/sandbox.h"
 #include "daemon/platform/durable_file.h"
-#include "daemon/workers/sandbox.h"
 
 namespace hydroprint::daemon {
 
@@ -23,9 +23,10 @@ struct Launch {
   std::vector<std::string> arguments = {};  ///< without the program's name
   std::filesystem::path inputs = {};        ///< working directory, which the program may read
   std::filesystem::path work = {};          ///< the only folder that the program may write to
-  Limits limits = {};
-  bool is_asked = false;  ///< true: the program reads requests from stdin
-  bool confined = true;   ///< false: only resource limits; for trusted programs that need a device
+  confine::Limits limits = {};
+  std::filesystem::path confine_program = {};  ///< hydroprint-confine; needed if `confined`
+  bool is_asked = false;                       ///< true: the program reads requests from stdin
+  bool confined = true;  ///< false: only resource limits; for trusted programs that need a device
   /// Least nice value of the program: the rig and the daemon's responses have priority over it.
   int niceness = 10;
 };
@@ -51,7 +52,11 @@ inline constexpr int kCameraNiceness = 5;
 /// worker.
 /// @return kInternal, WORKER_UNUSABLE if the system cannot create a process. A program that cannot
 /// be run exits at once with status 127 and a message at `errors`.
-[[nodiscard]] Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox);
+[[nodiscard]] Result<ChildProcess> launch(const Launch& what);
+
+/// Returns kFailedPrecondition if programs cannot be confined, because the kernel does not allow it
+/// or `confine_program` cannot be run.
+[[nodiscard]] Status check_confinement(const std::filesystem::path& confine_program);
 
 /// Sends a signal to the worker and all its children.
 void signal_group(const ChildProcess& worker, int signal);

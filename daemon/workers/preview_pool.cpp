@@ -62,17 +62,15 @@ struct PreviewPool::Slot {
 
 Result<std::unique_ptr<PreviewPool>> PreviewPool::make(PreviewOptions options,
                                                        const Layout& layout) {
-  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
-  std::unique_ptr<PreviewPool> preview_pool(
-      new PreviewPool(std::move(options), layout, std::move(sandbox)));
+  std::unique_ptr<PreviewPool> preview_pool(new PreviewPool(std::move(options), layout));
   preview_pool->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
   if (!preview_pool->wake_.valid()) return system_failure("eventfd", "cannot be created");
   preview_pool->thread_ = std::thread([&pool = *preview_pool] { pool.work(); });
   return preview_pool;
 }
 
-PreviewPool::PreviewPool(PreviewOptions options, Layout layout, Sandbox sandbox)
-    : options_(std::move(options)), layout_(std::move(layout)), sandbox_(std::move(sandbox)) {}
+PreviewPool::PreviewPool(PreviewOptions options, Layout layout)
+    : options_(std::move(options)), layout_(std::move(layout)) {}
 
 PreviewPool::~PreviewPool() { stop(); }
 
@@ -185,8 +183,9 @@ void PreviewPool::begin(Slot& slot) {
   call.sent = true;
   if (!slot.worker || slot.worker->key() != call.ask.key) {
     slot.worker = nullptr;
-    auto started = PreviewWorker::start(call.ask, call.id, options_.program, options_.limits,
-                                        options_.threads, sandbox_, layout_);
+    auto started =
+        PreviewWorker::start(call.ask, call.id, options_.program, options_.confine_program,
+                             options_.limits, options_.threads, layout_);
     if (!started) return finish(slot, tl::unexpected(started.error()));
     slot.worker = std::move(*started);
     log(LogLevel::kDebug, "preview_worker_started", {{"preview", call.id}});

@@ -16,8 +16,9 @@ namespace hydroprint::daemon {
 /// Settings for previews.
 struct PreviewOptions {
   std::filesystem::path program;
+  std::filesystem::path confine_program;  ///< hydroprint-confine
   int threads = 1;
-  Limits limits;
+  confine::Limits limits;
 };
 
 /// Reads models, and computes previews of dips while users rotate an object. Each user has a worker
@@ -25,7 +26,6 @@ struct PreviewOptions {
 /// call.
 class PreviewPool {
  public:
-  /// @return kFailedPrecondition if workers cannot be confined
   [[nodiscard]] static Result<std::unique_ptr<PreviewPool>> make(PreviewOptions options,
                                                                  const Layout& layout);
   ~PreviewPool();
@@ -46,7 +46,7 @@ class PreviewPool {
   struct Call;
   struct Slot;
 
-  PreviewPool(PreviewOptions options, Layout layout, Sandbox sandbox);
+  PreviewPool(PreviewOptions options, Layout layout);
   [[nodiscard]] Result<std::shared_ptr<Call>> place(const std::string& owner,
                                                     const PreviewRequest& ask);
   [[nodiscard]] bool make_room();
@@ -59,7 +59,6 @@ class PreviewPool {
 
   PreviewOptions options_;
   Layout layout_;
-  Sandbox sandbox_;
   UniqueFd wake_;
   std::mutex mutex_;
   std::condition_variable answered_;

@@ -37,7 +37,8 @@ PreviewWorker::~PreviewWorker() {
 
 Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
     const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
-    const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout) {
+    const std::filesystem::path& confine_program, const confine::Limits& limits, int threads,
+    const Layout& layout) {
   std::unique_ptr<PreviewWorker> preview_worker(new PreviewWorker(ask.key, layout.preview(number)));
   Launch plan;
   plan.program = program;
@@ -45,13 +46,14 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
   plan.inputs = preview_worker->folder_ / "in";
   plan.work = preview_worker->folder_ / "work";
   plan.limits = limits;
+  plan.confine_program = confine_program;
   plan.is_asked = true;
   HP_RETURN_IF_ERROR(lay_out_inputs(layout, ask.inputs, plan.inputs));
   HP_RETURN_IF_ERROR(make_folder(plan.work));
   const auto spec_file = plan.work / "spec.json";
   HP_RETURN_IF_ERROR(write_file(spec_file, ask.spec));
   for (std::string& option : spec_options(spec_file)) plan.arguments.push_back(std::move(option));
-  HP_ASSIGN_OR_RETURN(preview_worker->worker_, launch(plan, sandbox));
+  HP_ASSIGN_OR_RETURN(preview_worker->worker_, launch(plan));
   return preview_worker;
 }
 

@@ -25,7 +25,8 @@ class PreviewWorker {
   /// @return kFailedPrecondition, ASSET_MISSING; kInternal, WORKER_UNUSABLE
   [[nodiscard]] static Result<std::unique_ptr<PreviewWorker>> start(
       const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
-      const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout);
+      const std::filesystem::path& confine_program, const confine::Limits& limits, int threads,
+      const Layout& layout);
   ~PreviewWorker();
   PreviewWorker(const PreviewWorker&) = delete;
   PreviewWorker& operator=(const PreviewWorker&) = delete;

@@ -52,14 +52,8 @@ class ProgramDigest {
 }  // namespace
 
 struct WorkerPool::Impl {
-  Impl(const PoolOptions& o, JobStore& s, JobQueue& q, const Layout& l, Clock c, Sandbox box)
-      : options(o),
-        store(s),
-        queue(q),
-        layout(l),
-        clock(std::move(c)),
-        sandbox(std::move(box)),
-        program(o.program) {}
+  Impl(const PoolOptions& o, JobStore& s, JobQueue& q, const Layout& l, Clock c)
+      : options(o), store(s), queue(q), layout(l), clock(std::move(c)), program(o.program) {}
 
   void loop();
   void wait_for_something() const;
@@ -81,7 +75,6 @@ struct WorkerPool::Impl {
   JobQueue& queue;
   Layout layout;
   Clock clock;
-  Sandbox sandbox;
   ProgramDigest program;
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   std::vector<std::unique_ptr<WorkerRun>> runs;  // used only by the pool's thread
@@ -98,10 +91,9 @@ WorkerPool::WorkerPool() = default;
 Result<std::unique_ptr<WorkerPool>> WorkerPool::make(const PoolOptions& options, JobStore& store,
                                                      JobQueue& queue, const Layout& layout,
                                                      Clock clock) {
-  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
+  HP_RETURN_IF_ERROR(check_confinement(options.confine_program));
   std::unique_ptr<WorkerPool> pool(new WorkerPool);
-  pool->impl_ =
-      std::make_unique<Impl>(options, store, queue, layout, std::move(clock), std::move(sandbox));
+  pool->impl_ = std::make_unique<Impl>(options, store, queue, layout, std::move(clock));
   HP_RETURN_IF_ERROR(pool->impl_->program.get());
   return pool;
 }
@@ -248,7 +240,7 @@ Status WorkerPool::Impl::start_worker(const Job& job) {
     const std::uint64_t one = 1;
     if (::write(notifier.get(), &one, sizeof one) < 0) return;
   };
-  HP_ASSIGN_OR_RETURN(auto run, WorkerRun::start(job, plan(job), sandbox, layout,
+  HP_ASSIGN_OR_RETURN(auto run, WorkerRun::start(job, plan(job), layout,
                                                  std::chrono::seconds(options.time_limit_s), wake));
   runs.push_back(std::move(run));
   return {};
@@ -291,6 +283,7 @@ Launch WorkerPool::Impl::plan(const Job& job) const {
                                                  : shared;
   Launch launch;
   launch.program = options.program;
+  launch.confine_program = options.confine_program;
   launch.inputs = layout.run_inputs(job.id);
   launch.work = layout.run_work(job.id);
   launch.arguments = {job.definition.work.verb};

@@ -17,7 +17,8 @@ namespace hydroprint::daemon {
 /// Settings for running workers.
 struct PoolOptions {
   std::filesystem::path program;
-  int slots = 1;    ///< maximum number of workers
+  std::filesystem::path confine_program;  ///< hydroprint-confine
+  int slots = 1;                          ///< maximum number of workers
   int cores = 1;    ///< number of processor cores, divided among workers if `threads` is 0
   int threads = 0;  ///< number of threads per worker; 0: a share of the cores
   std::int64_t memory_bytes = 0;  ///< limit per worker; 0: no limit

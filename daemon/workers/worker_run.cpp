@@ -26,13 +26,13 @@ bool is_settled(const Error& error) {
 }  // namespace
 
 Result<std::unique_ptr<WorkerRun>> WorkerRun::start(const Job& job, const Launch& launch_plan,
-                                                    const Sandbox& sandbox, const Layout& layout,
+                                                    const Layout& layout,
                                                     std::chrono::seconds time_limit,
                                                     std::function<void()> wake) {
   std::unique_ptr<WorkerRun> run(new WorkerRun(job, layout));
   run->wake_ = std::move(wake);
   HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.definition.work.inputs, launch_plan.inputs));
-  HP_ASSIGN_OR_RETURN(run->worker_, launch(launch_plan, sandbox));
+  HP_ASSIGN_OR_RETURN(run->worker_, launch(launch_plan));
   run->memory_bytes_ = launch_plan.limits.memory_bytes;
   run->deadline_ = SteadyClock::now() + time_limit;
   log(LogLevel::kInfo, "job_started",

@@ -22,7 +22,7 @@ class WorkerRun {
   /// Creates the input folder and starts the worker. `wake` is called from another thread when
   /// step() has something to do.
   static Result<std::unique_ptr<WorkerRun>> start(const Job& job, const Launch& launch,
-                                                  const Sandbox& sandbox, const Layout& layout,
+                                                  const Layout& layout,
                                                   std::chrono::seconds time_limit,
                                                   std::function<void()> wake);
   ~WorkerRun();

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <thread>
 
-#include "daemon/workers/landlock.h"
+#include "daemon/confine/landlock.h"
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "tests/daemon/api/support.h"
 
@@ -166,7 +166,7 @@ TEST_F(Workers, CannotRaiseTheirPriority) {
 }
 
 TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
-  if (!hydroprint::daemon::fences_work()) GTEST_SKIP() << "this kernel has no Landlock";
+  if (hydroprint::confine::landlock_version() == 0) GTEST_SKIP() << "this kernel has no Landlock";
   start(DaemonProcess::fake());
   const auto secret = folder.write("secret", "secret");
   const v1::Job job =

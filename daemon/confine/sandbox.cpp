@@ -1,23 +1,18 @@
-#include "daemon/workers/sandbox.h"
+#include "daemon/confine/sandbox.h"
 
 #include <fcntl.h>
-#include <linux/seccomp.h>
 #include <seccomp.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <memory>
 
-#include "daemon/platform/durable_file.h"
-#include "daemon/workers/landlock.h"
-
-namespace hydroprint::daemon {
+namespace hydroprint::confine {
 namespace {
 
 // System calls that fail with EACCES. Sockets of all families are denied: no network, and no
@@ -67,42 +62,38 @@ constexpr std::array kRefused{
     SCMP_SYS(request_key),
 };
 
-constexpr const char* kNoSandbox =
-    "this machine cannot confine workers (seccomp); use a kernel and a container that allow "
-    "seccomp filters";
+constexpr std::uint32_t kRefuse = SCMP_ACT_ERRNO(EACCES);
 
 struct FreeFilter {
   void operator()(void* filter) const { seccomp_release(filter); }
 };
 
-Result<std::vector<sock_filter>> compile_filter() {
+// Sets errno from a negative result of libseccomp; returns whether the result is a success.
+bool succeeded(int result) {
+  if (result < 0) errno = -result;
+  return result >= 0;
+}
+
+// With these calls, a process may signal its own threads and access its own limits, but not signal
+// other processes or access their limits. exec keeps the process id.
+bool refuse_others(scmp_filter_ctx filter) {
+  const auto refuse_unless = [filter](int call, pid_t allowed) {
+    const auto id = static_cast<scmp_datum_t>(allowed);
+    return succeeded(seccomp_rule_add(filter, kRefuse, call, 1, SCMP_A0_64(SCMP_CMP_NE, id, 0)));
+  };
+  return refuse_unless(SCMP_SYS(tgkill), ::getpid()) &&
+         refuse_unless(SCMP_SYS(rt_tgsigqueueinfo), ::getpid()) &&
+         refuse_unless(SCMP_SYS(prlimit64), 0);
+}
+
+bool filter_system_calls() {
   const std::unique_ptr<void, FreeFilter> filter(seccomp_init(SCMP_ACT_ALLOW));
-  const UniqueFd file(memfd_create("seccomp", MFD_CLOEXEC));
-  bool good = filter && file.valid();
-  constexpr std::uint32_t kRefuse = SCMP_ACT_ERRNO(EACCES);
+  if (!filter) return succeeded(-ENOMEM);
   for (const int call : kRefused) {
-    good = good && seccomp_rule_add(filter.get(), kRefuse, call, 0) == 0;
+    if (!succeeded(seccomp_rule_add(filter.get(), kRefuse, call, 0))) return false;
   }
-  // With these calls, a worker may signal its own threads and access its own limits, but not signal
-  // the daemon or access the limits of other processes.
-  const auto daemon = static_cast<scmp_datum_t>(::getpid());
-  good = good &&
-         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(tgkill), 1,
-                          SCMP_A0_64(SCMP_CMP_EQ, daemon, 0)) == 0 &&
-         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(rt_tgsigqueueinfo), 1,
-                          SCMP_A0_64(SCMP_CMP_EQ, daemon, 0)) == 0 &&
-         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(prlimit64), 1,
-                          SCMP_A0_64(SCMP_CMP_NE, 0, 0)) == 0;
-  good = good && seccomp_export_bpf(filter.get(), file.get()) == 0;
-  struct stat info {};
-  good = good && fstat(file.get(), &info) == 0;
-  if (!good) return fail(Code::kFailedPrecondition, kNoSandbox);
-  std::vector<sock_filter> program(static_cast<std::size_t>(info.st_size) / sizeof(sock_filter));
-  const std::size_t bytes = program.size() * sizeof(sock_filter);
-  if (::pread(file.get(), program.data(), bytes, 0) != static_cast<ssize_t>(bytes)) {
-    return fail(Code::kFailedPrecondition, kNoSandbox);
-  }
-  return program;
+  // The kernel's reason is in errno. The result of seccomp_load() does not tell it.
+  return refuse_others(filter.get()) && seccomp_load(filter.get()) == 0;
 }
 
 template <class Resource>
@@ -112,6 +103,11 @@ bool limit(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
   const rlimit limits{std::min(static_cast<rlim_t>(value), old.rlim_max),
                       std::min(static_cast<rlim_t>(value + hard_extra), old.rlim_max)};
   return setrlimit(resource, &limits) == 0;
+}
+
+template <class Resource>
+bool limit_if_set(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
+  return value == 0 || limit(resource, value, hard_extra);
 }
 
 // If memory runs short, the kernel kills a worker rather than the daemon.
@@ -124,17 +120,12 @@ void raise_oom_score() {
 
 }  // namespace
 
-Result<Sandbox> Sandbox::make() {
-  Sandbox sandbox;
-  HP_ASSIGN_OR_RETURN(sandbox.filter_, compile_filter());
-  return sandbox;
-}
-
-const char* Sandbox::limit_use(const Limits& limits) {
+const char* limit_use(const Limits& limits) {
   raise_oom_score();
   if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 256) ||
-      !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5) ||
-      !limit(RLIMIT_RTPRIO, 0) || !limit(RLIMIT_NICE, 0)) {
+      !limit_if_set(RLIMIT_FSIZE, limits.file_bytes) ||
+      !limit_if_set(RLIMIT_CPU, limits.cpu_s, 5) || !limit(RLIMIT_RTPRIO, 0) ||
+      !limit(RLIMIT_NICE, 0)) {
     return "cannot set resource limits";
   }
   // The pool monitors actual use. This limit stops growth that is too fast for the pool, with a
@@ -148,14 +139,18 @@ const char* Sandbox::limit_use(const Limits& limits) {
   return nullptr;
 }
 
-const char* Sandbox::confine(const Limits& limits, int ruleset) const {
-  if (const char* const failed = limit_use(limits)) return failed;
-  if (!apply_ruleset(ruleset)) return "cannot restrict file access";
-  const sock_fprog program{static_cast<unsigned short>(filter_.size()),
-                           const_cast<sock_filter*>(filter_.data())};
-  if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
-    return "cannot install the system call filter";
-  return nullptr;
+const char* confine(const Limits& limits, const Files& files) {
+  if (const char* const step = limit_use(limits)) return step;
+  if (!restrict_files(files)) return "cannot restrict file access";
+  return filter_system_calls() ? nullptr : "cannot install the system call filter";
 }
 
-}  // namespace hydroprint::daemon
+void give_up(const char* step) {
+  const char* const reason = ::strerrordesc_np(errno);
+  for (const char* part : {"the worker cannot be started: ", step, ": ", reason, "\n"}) {
+    if (::write(2, part, std::strlen(part)) < 0) break;
+  }
+  ::_exit(127);
+}
+
+}  // namespace hydroprint::confine

@@ -1,10 +1,10 @@
-#include "daemon/workers/landlock.h"
+#include "daemon/confine/landlock.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
 
-namespace hydroprint::daemon {
+namespace hydroprint::confine {
 namespace {
 
 TEST(FileFence, CoversOnlyTheSystemAndTheProgramsFolder) {
@@ -25,4 +25,4 @@ TEST(FileFence, CoversOnlyTheSystemAndTheProgramsFolder) {
 }
 
 }  // namespace
-}  // namespace hydroprint::daemon
+}  // namespace hydroprint::confine

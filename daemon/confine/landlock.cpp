@@ -1,4 +1,4 @@
-#include "daemon/workers/landlock.h"
+#include "daemon/confine/landlock.h"
 
 #include <fcntl.h>
 #include <linux/landlock.h>
@@ -7,9 +7,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 
-namespace hydroprint::daemon {
+#include "daemon/platform/durable_file.h"
+
+namespace hydroprint::confine {
 namespace {
+
+using daemon::UniqueFd;
 
 constexpr std::uint64_t kRead = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
 constexpr std::uint64_t kWrite = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
@@ -21,16 +26,9 @@ constexpr std::array kSystem{"/usr", "/lib",  "/lib64", "/lib32", "/bin",
                              "/etc", "/proc", "/sys",   "/dev",   "/opt"};
 constexpr std::uint64_t kOnFiles = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
 
-// Returns the version of Landlock; 0 if the kernel has none.
-long version() {
-  const long answer =
-      ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
-  return answer > 0 ? answer : 0;
-}
-
 // The right to move files between folders exists since version 2; version 1 always denies such
 // moves.
-std::uint64_t move_right() { return version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
+std::uint64_t move_right() { return landlock_version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
 
 // Allows access below a path; a missing path needs no rule.
 bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64_t access) {
@@ -41,9 +39,33 @@ bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64
   return ::syscall(SYS_landlock_add_rule, rules.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
 }
 
+// Returns the folder of a program. Resolves links, because the program's files are next to the file
+// itself.
+std::filesystem::path folder_of(const std::filesystem::path& program) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(program, ignored).parent_path();
+}
+
 }  // namespace
 
-bool fences_work() { return version() > 0; }
+int landlock_version() {
+  const long answer =
+      ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  return answer > 0 ? static_cast<int>(answer) : 0;
+}
+
+bool restrict_files(const Files& files) {
+  if (landlock_version() == 0) return true;
+  const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
+  const UniqueFd rules(
+      static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
+  bool good = rules.valid();
+  for (const char* path : kSystem) good = good && allow(rules, path, kRead);
+  return good && allow(rules, "/dev/null", kOnFiles) &&
+         allow(rules, folder_of(files.program), kRead) && allow(rules, files.inputs, kRead) &&
+         allow(rules, files.work, kRead | kWrite | move_right()) &&
+         ::syscall(SYS_landlock_restrict_self, rules.get(), 0) == 0;
+}
 
 bool is_within_ruleset(const std::filesystem::path& file, const std::filesystem::path& program) {
   std::error_code ignored;
@@ -52,30 +74,7 @@ bool is_within_ruleset(const std::filesystem::path& file, const std::filesystem:
     return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
            folder.end();
   };
-  return std::any_of(kSystem.begin(), kSystem.end(), is_below) ||
-         is_below(std::filesystem::weakly_canonical(program, ignored).parent_path());
+  return std::any_of(kSystem.begin(), kSystem.end(), is_below) || is_below(folder_of(program));
 }
 
-Result<UniqueFd> make_ruleset(const std::filesystem::path& program,
-                              const std::filesystem::path& inputs,
-                              const std::filesystem::path& work) {
-  if (!fences_work()) return UniqueFd();
-  const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
-  const UniqueFd low(
-      static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
-  // Moves the descriptor above those that a worker uses.
-  UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
-  bool good = rules.valid();
-  for (const char* path : kSystem) good = good && allow(rules, path, kRead);
-  good = good && allow(rules, "/dev/null", kOnFiles) &&
-         allow(rules, program.parent_path(), kRead) && allow(rules, inputs, kRead) &&
-         allow(rules, work, kRead | kWrite | move_right());
-  if (!good) return system_failure("landlock", "file access cannot be restricted");
-  return rules;
-}
-
-bool apply_ruleset(int ruleset) {
-  return ruleset < 0 || ::syscall(SYS_landlock_restrict_self, ruleset, 0) == 0;
-}
-
-}  // namespace hydroprint::daemon
+}  // namespace hydroprint::confine
