@@ -27,12 +27,15 @@ int core_count() {
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
+int worker_slots(const Config& config) {
+  return config.workers_count > 0 ? static_cast<int>(config.workers_count) : core_count();
+}
+
 PoolOptions pool_options(const Config& config) {
   PoolOptions options;
   options.program = config.workers_program;
   options.confine_program = config.confine_program;
   options.cores = core_count();
-  options.slots = config.workers_count > 0 ? static_cast<int>(config.workers_count) : options.cores;
   options.threads = static_cast<int>(config.workers_threads);
   options.memory_bytes = config.workers_memory_mib * kMiB;
   options.time_limit_s = config.workers_time_limit_s;
@@ -103,10 +106,16 @@ Status Daemon::open_store(const Config& config) {
   asset_retention_ = std::make_unique<AssetRetention>(
       *database_, layout_, config.assets_keep_unused_days * 24 * kHourMs, system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
+  executor_ = std::make_unique<LocalExecutor>(worker_slots(config));
+  return repair_store();
+}
+
+Status Daemon::repair_store() {
+  HP_ASSIGN_OR_RETURN(const auto kept, surviving(*executor_, *jobs_));
   // sweep() comes first, since it may free disk space that the next step needs.
-  HP_RETURN_IF_ERROR(job_retention_->sweep());
+  HP_RETURN_IF_ERROR(job_retention_->sweep(kept));
   HP_RETURN_IF_ERROR(end_lost_dips(*device_jobs_, layout_));
-  HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
+  HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss, kept));
   HP_RETURN_IF_ERROR(asset_retention_->sweep());
   clean_up();
   return {};
@@ -225,8 +234,9 @@ Status Daemon::open_camera(const Config& config) {
 }
 
 Status Daemon::start_serving(const Config& config) {
-  HP_ASSIGN_OR_RETURN(
-      pool_, WorkerPool::make(pool_options(config), *jobs_, *queue_, layout_, system_clock_ms));
+  HP_RETURN_IF_ERROR(check_confinement(config.confine_program));
+  HP_ASSIGN_OR_RETURN(pool_, WorkerPool::make(pool_options(config), *executor_, *jobs_, *queue_,
+                                              layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewPool::make(preview_options(pool_options(config)), layout_));
   const ServiceContext backend{*database_,       *accounts_,  *audit_,
                                *access_,         *jobs_,      *queue_,
@@ -292,6 +302,12 @@ void Daemon::clean_up() {
   log_failure("audit_not_purged", audit_->clean_up());
 }
 
+// Executions that go on keep their jobs RUNNING for the next daemon.
+Status Daemon::interrupt_jobs() {
+  HP_ASSIGN_OR_RETURN(const auto kept, surviving(*executor_, *jobs_));
+  return jobs_->interrupt_all(Interruption::kShutdown, kept);
+}
+
 void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
   if (http_) http_->stop_accepting();
@@ -304,7 +320,7 @@ void Daemon::stop() {
   if (http_) http_->stop();
   meter_.reset();
   rig_.reset();  // brings the axis to rest
-  log_failure("jobs_not_queued_again", jobs_->interrupt_all(Interruption::kShutdown));
+  log_failure("jobs_not_queued_again", interrupt_jobs());
 }
 
 }  // namespace hydroprint::daemon

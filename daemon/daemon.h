@@ -30,6 +30,7 @@
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_lock.h"
 #include "daemon/tls/certificate_reloader.h"
+#include "daemon/workers/local_executor.h"
 #include "daemon/workers/preview_pool.h"
 #include "daemon/workers/worker_pool.h"
 
@@ -39,7 +40,8 @@ namespace hydroprint::daemon {
 class Daemon {
  public:
   /// Locks the state folder, repairs the store after a crash, starts listening and starts workers.
-  /// Computed jobs that were interrupted are queued again.
+  /// Executions that the executor still has go on; other computed jobs that were interrupted are
+  /// queued again.
   /// @param first_admin  name of a user, who is created if necessary and gets a link that signs
   ///                     them in once as admin, within 15 minutes; empty: no link
   /// @return for `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS if the user exists
@@ -66,13 +68,15 @@ class Daemon {
 
   /// Deletes expired data. Must be called regularly.
   void clean_up();
-  /// Rejects new calls, ends the workers and queues their jobs for the next start. Takes a few
-  /// seconds at most.
+  /// Rejects new calls, ends the workers that do not outlive the daemon, and queues their jobs for
+  /// the next start. Takes a few seconds at most.
   void stop();
 
  private:
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
+  [[nodiscard]] Status repair_store();
+  [[nodiscard]] Status interrupt_jobs();
   [[nodiscard]] Status open_people(const Config& config);
   [[nodiscard]] Status open_certificate(const Config& config);
   [[nodiscard]] Status make_first_admin(const std::string& name);
@@ -109,6 +113,7 @@ class Daemon {
   CameraConfig camera_;
   std::unique_ptr<LiveCamera> live_;
   std::unique_ptr<CaptureExecutor> captures_;
+  std::unique_ptr<WorkerExecutor> executor_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<PreviewPool> previews_;
   std::unique_ptr<CertificateReloader> certificate_;  // null without TLS

@@ -20,15 +20,14 @@ constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
 constexpr double kDefaultSeconds = 2;
 
-Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, double seconds) {
+Launch plan(const CameraConfig& camera, const RunFolder& folder, double seconds) {
   Launch out;
   out.program = camera.program;
-  out.inputs = layout.run_inputs(job);
-  out.work = layout.run_work(job);
-  out.arguments = {fmt::format("--seconds={:g}", seconds),
-                   fmt::format("--patience-s={}", camera.patience_s),
-                   "--out=" + layout.run_out(job).string(),
-                   fmt::format("--progress-fd={}", kProgressFd), "--json"};
+  out.inputs = folder.inputs();
+  out.work = folder.work();
+  out.arguments = {
+      fmt::format("--seconds={:g}", seconds), fmt::format("--patience-s={}", camera.patience_s),
+      "--out=" + folder.out().string(), fmt::format("--progress-fd={}", kProgressFd), "--json"};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
   out.confined = false;  // needs the camera, and reads nothing else
@@ -36,9 +35,9 @@ Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, 
   return out;
 }
 
-void wait_for(const WorkerRun& run) {
+void wait_for(const WorkerExecutor& executor) {
   std::vector<pollfd> fds;
-  for (const int fd : run.descriptors()) fds.push_back({fd, POLLIN, 0});
+  for (const int fd : executor.descriptors()) fds.push_back({fd, POLLIN, 0});
   ::poll(fds.data(), fds.size(), kTick_ms);
 }
 
@@ -110,16 +109,19 @@ void CaptureExecutor::go(const Job& job, double seconds) {
 
 Status CaptureExecutor::run(const Job& job, double seconds) {
   dependencies_.live.wait_until_free();
-  HP_RETURN_IF_ERROR(make_folder(dependencies_.layout.run_work(job.id)));
-  const Launch launch = plan(dependencies_.camera, dependencies_.layout, job.id, seconds);
+  const RunFolder folder = dependencies_.layout.run(job.id);
+  HP_RETURN_IF_ERROR(make_folder(folder.work()));
+  const Launch launch = plan(dependencies_.camera, folder, seconds);
   const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +
                                    dependencies_.camera.patience_s);
   HP_ASSIGN_OR_RETURN(const auto run,
-                      WorkerRun::start(job, launch, dependencies_.layout, limit, [] {}));
-  while (!run->step(dependencies_.jobs, dependencies_.clock())) {
+                      WorkerRun::start(job, {job.id, 1, processes_.name(), "", folder.root}, launch,
+                                       {processes_, dependencies_.layout, {limit}, [] {}}));
+  while (!run->step(of_job(processes_.poll({run->execution()}), job.id), dependencies_.jobs,
+                    dependencies_.clock())) {
     if (left_) run->stop(StopReason::kShutdown);
     if (cancelled_) run->stop(StopReason::kCancel);
-    wait_for(*run);
+    wait_for(processes_);
   }
   const auto ended = dependencies_.jobs.get(job.id);
   if (ended && ended->state == JobState::kSucceeded) latest_ms_ = ended->end_ms;
@@ -128,7 +130,7 @@ Status CaptureExecutor::run(const Job& job, double seconds) {
 
 /// Ends a job whose capture could not be started.
 void CaptureExecutor::give_up(const Job& job, const Error& error) {
-  discard(dependencies_.layout.run(job.id));
+  discard(dependencies_.layout.run(job.id).root);
   log(LogLevel::kError, "capture_not_started", {{"job", job.id}, {"message", error.message}});
   while (!left_) {
     const auto ended = dependencies_.jobs.give_up(job.id, {error, {}, {}});

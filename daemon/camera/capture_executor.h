@@ -14,6 +14,7 @@
 #include "daemon/store/calibration_store.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
+#include "daemon/workers/local_executor.h"
 
 namespace hydroprint::daemon {
 
@@ -60,6 +61,7 @@ class CaptureExecutor final : public JobExecutor {
   void give_up(const Job& job, const Error& error);
 
   CaptureDependencies dependencies_;
+  LocalExecutor processes_{1};  // used only by the thread of the capture
   std::mutex mutex_;
   bool end_ = false;  // no further captures
   std::atomic<std::int64_t> job_{0}, latest_ms_{0};

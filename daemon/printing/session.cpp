@@ -131,7 +131,7 @@ void PrintSession::finish(const Status& done) {
 /// If the record cannot be stored, the print ends without it, because its outcome is more
 /// important.
 std::vector<Artifact> PrintSession::publish_record() {
-  const auto folder = layout_.run_out(job_);
+  const auto folder = layout_.run(job_).out();
   const auto written = [&]() -> Result<std::vector<Artifact>> {
     HP_RETURN_IF_ERROR(make_folder(folder));
     HP_ASSIGN_OR_RETURN(const UniqueFd file,
@@ -140,7 +140,7 @@ std::vector<Artifact> PrintSession::publish_record() {
     return publish_artifacts(folder, layout_.artifacts(job_));
   };
   auto record = written();
-  discard(layout_.run(job_));
+  discard(layout_.run(job_).root);
   if (record) return std::move(*record);
   log(LogLevel::kError, "record_lost", {{"job", job_}, {"message", record.error().message}});
   return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -114,12 +115,25 @@ struct Job {
   JobState state = JobState::kQueued;
   Progress progress;
   std::int64_t create_ms = 0, start_ms = 0, end_ms = 0, update_ms = 0, purge_ms = 0;
-  std::int64_t version = 0;  ///< increases with every change
+  std::int64_t version = 0;   ///< increases with every change
+  std::int64_t attempts = 0;  ///< number of times that a computed job was started
   bool cache_hit = false;
   bool shared = false;  ///< see hydroprint.v1.Job.shared
   bool pinned = false;  ///< see hydroprint.v1.Job.pinned; purge_ms is then 0
   std::optional<JobFailure> failure;
   std::string dip_status;  ///< current status of a dip, as in NewJob::dip_status
+};
+
+/// One attempt to run a job in a worker, at a WorkerExecutor. It is open from the start of the
+/// attempt until the end of the job, or its return to the queue, is stored.
+struct Execution {
+  std::int64_t job = 0;
+  std::int64_t attempt = 0;  ///< 1 for the first start of the job
+  std::string executor;      ///< WorkerExecutor::name()
+  /// The executor's own name for it. Empty until start() has returned, and in the store for ever if
+  /// the daemon is killed before that: the other members then identify the execution.
+  std::string handle;
+  std::filesystem::path folder;  ///< see RunFolder; never used by another attempt
 };
 
 /// A stored event of a job.

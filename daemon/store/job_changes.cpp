@@ -60,6 +60,7 @@ Status JobChanges::finish(std::int64_t id, JobState state, const std::string& me
                     "eta_ms=0 WHERE id=?2",
                     {now, id}));
   HP_RETURN_IF_ERROR(set_purge_time("id=?", id));
+  HP_RETURN_IF_ERROR(close_execution(database_, id));
   HP_RETURN_IF_ERROR(database_.run("DELETE FROM events WHERE job=? AND kind=?",
                                    {id, number(EventKind::kProgress)}));
   return set_state(id, state, message);

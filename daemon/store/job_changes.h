@@ -24,7 +24,8 @@ struct RetentionTimes {
 ///
 /// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
 /// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
-/// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
+/// the daemon shut down, or daemon or worker was lost; the third loss leads to FAILED (DAEMON_LOST,
+/// WORKER_KILLED).
 /// Prints and captures start as RUNNING: RUNNING -> SUCCEEDED | FAILED | INTERRUPTED; RUNNING ->
 /// CANCELLING -> CANCELLED.
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED. From either of these two states:
@@ -48,7 +49,7 @@ class JobChanges {
   [[nodiscard]] Status add_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);
   /// Stores a state that is not final.
   [[nodiscard]] Status set_state(std::int64_t id, JobState state, const std::string& message);
-  /// Stores a final state; the job's retention starts.
+  /// Stores a final state and closes the execution; the job's retention starts.
   [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);
   /// Stores FAILED with its reason.
   [[nodiscard]] Status finish_failed(std::int64_t id, const JobFailure& failure);

@@ -87,14 +87,27 @@ Status JobRetention::purge() {
   return forget_old_requests(database_, changes_.now_ms());
 }
 
-Status JobRetention::sweep() {
-  discard(layout_.runs());
-  HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
+Status JobRetention::empty_runs(const std::vector<Execution>& kept) {
+  std::set<std::filesystem::path> in_use;
+  for (const Execution& execution : kept) in_use.insert(execution.folder);
+  std::vector<std::filesystem::path> unused;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(layout_.runs(), ignored)) {
+    if (!in_use.contains(entry.path())) unused.push_back(entry.path());
+  }
+  for (const auto& path : unused) discard(path);
+  return make_folder(layout_.runs());
+}
+
+Status JobRetention::sweep(const std::vector<Execution>& kept) {
+  HP_RETURN_IF_ERROR(empty_runs(kept));
   HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
   HP_RETURN_IF_ERROR(changes_.set_purge_time("end_ms>?", 0));
   HP_ASSIGN_OR_RETURN(const auto done,
                       select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
-  const std::set<std::int64_t> owned(done.begin(), done.end());
+  std::set<std::int64_t> owned(done.begin(), done.end());
+  // The previous daemon may have been killed while it published them; WorkerRun continues.
+  for (const Execution& execution : kept) owned.insert(execution.job);
   SetAside set_aside(layout_, changes_.now_ms());
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(layout_.artifacts(), ignored)) {

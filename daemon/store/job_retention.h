@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "daemon/store/job_changes.h"
 #include "daemon/store/state_layout.h"
@@ -21,10 +22,12 @@ class JobRetention {
   [[nodiscard]] Status purge();
   /// Sets aside artifact folders without a job, empties the folder of runs, and applies the
   /// configured retention times. Call this before the pool starts.
-  [[nodiscard]] Status sweep();
+  /// @param kept  executions that are not lost; their folders and artifacts stay
+  [[nodiscard]] Status sweep(const std::vector<Execution>& kept = {});
 
  private:
   [[nodiscard]] Status purge_one(std::int64_t id);
+  [[nodiscard]] Status empty_runs(const std::vector<Execution>& kept);
 
   JobChanges& changes_;
   Database& database_;

@@ -14,7 +14,7 @@ constexpr const char* kJobColumns =
     "calibrations.job=jobs.id) THEN 0 ELSE purge_ms END, version, error_code, error_reason, "
     "error_message, exit_status, "
     "signal, pose, (SELECT status FROM dips WHERE job=jobs.id), shared, pinned, spec, computed, "
-    "reads_artifacts, interrupted_advice FROM jobs ";
+    "reads_artifacts, interrupted_advice, attempts FROM jobs ";
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -64,6 +64,7 @@ Job read_job(const DbRow& row) {
   job.dip_status = row.text(30);
   job.shared = row.integer(31) != 0;
   job.pinned = row.integer(32) != 0;
+  job.attempts = row.integer(37);
   return job;
 }
 
@@ -130,6 +131,31 @@ Result<std::vector<std::int64_t>> select_numbers(Database& database, const std::
   HP_RETURN_IF_ERROR(
       database.each(sql, values, [&](const DbRow& row) { numbers.push_back(row.integer(0)); }));
   return numbers;
+}
+
+Status insert_execution(Database& database, const Execution& execution) {
+  return database.run("INSERT INTO executions VALUES (?,?,?,?,?)",
+                      {execution.job, execution.attempt, execution.executor, execution.handle,
+                       execution.folder.string()});
+}
+
+Status close_execution(Database& database, std::int64_t job) {
+  return database.run("DELETE FROM executions WHERE job=?", {job});
+}
+
+Status store_handle(Database& database, const Execution& execution) {
+  return database.run("UPDATE executions SET handle=? WHERE job=? AND attempt=?",
+                      {execution.handle, execution.job, execution.attempt});
+}
+
+Result<std::vector<Execution>> select_executions(Database& database) {
+  std::vector<Execution> out;
+  HP_RETURN_IF_ERROR(database.each(
+      "SELECT job, attempt, executor, handle, folder FROM executions ORDER BY job", {},
+      [&](const DbRow& row) {
+        out.push_back({row.integer(0), row.integer(1), row.text(2), row.text(3), row.text(4)});
+      }));
+  return out;
 }
 
 std::string join_lines(const std::vector<std::string>& lines) {

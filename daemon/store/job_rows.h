@@ -39,6 +39,20 @@ namespace hydroprint::daemon {
 [[nodiscard]] Result<std::vector<std::int64_t>> select_numbers(
     Database& database, const std::string& sql, std::initializer_list<DbValue> values);
 
+/// Stores an execution as open. Call this within the transaction that starts the job.
+/// @return the errors of Database::run(), also if the job already has an open execution
+[[nodiscard]] Status insert_execution(Database& database, const Execution& execution);
+
+/// Removes the open execution of a job, if any. Call this within the transaction that ends the job
+/// or queues it again.
+[[nodiscard]] Status close_execution(Database& database, std::int64_t job);
+
+/// Stores the handle of an open execution; ignored if it is not open any more.
+[[nodiscard]] Status store_handle(Database& database, const Execution& execution);
+
+/// Returns the open executions of all jobs, in the order of their jobs.
+[[nodiscard]] Result<std::vector<Execution>> select_executions(Database& database);
+
 /// Joins lines for storage, for example flags: one per line.
 [[nodiscard]] std::string join_lines(const std::vector<std::string>& lines);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "daemon/platform/durable_file.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/asset.h"
@@ -12,8 +14,6 @@
 
 namespace hydroprint::daemon {
 namespace {
-
-constexpr std::int64_t kMostLosses = 3;
 
 tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
   auto error =
@@ -236,14 +236,20 @@ Result<Job> JobStore::cancel(std::int64_t id) {
   return marked;
 }
 
-Result<Job> JobStore::start(std::int64_t id) {
+Result<Job> JobStore::start(std::int64_t id, const std::string& executor) {
   auto started = changes_.change(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
     HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
     if (cached) return {};
     HP_RETURN_IF_ERROR(database_.run(
-        "UPDATE jobs SET start_ms=?, fraction=0, phase='', phase_fraction=0, eta_ms=0 WHERE id=?",
+        "UPDATE jobs SET start_ms=?, fraction=0, phase='', phase_fraction=0, eta_ms=0, "
+        "attempts=attempts+1 WHERE id=?",
         {changes_.now_ms(), id}));
+    if (!executor.empty()) {
+      const std::int64_t attempt = job.attempts + 1;
+      HP_RETURN_IF_ERROR(
+          insert_execution(database_, {id, attempt, executor, "", layout_.run(id, attempt).root}));
+    }
     return changes_.set_state(id, JobState::kRunning, "");
   });
   if (!started && started.error().reason == "DISK_FULL") discard_unowned(id);
@@ -283,58 +289,31 @@ Result<Job> JobStore::give_up(std::int64_t id, const JobFailure& failure) {
   });
 }
 
-Status JobStore::change_running(JobState from, const std::function<Status(std::int64_t)>& to) {
-  HP_ASSIGN_OR_RETURN(const auto ids, ids_in_state(from));
-  for (const std::int64_t id : ids) HP_RETURN_IF_ERROR(to(id));
-  return {};
-}
-
-// A job that crashes the machine must not do so at every start.
-Status JobStore::queue_again(std::int64_t id, Interruption why) {
-  if (why == Interruption::kLoss) {
-    HP_RETURN_IF_ERROR(
-        database_.run("INSERT INTO losses VALUES (?,1) ON CONFLICT(job) DO UPDATE SET "
-                      "count=count+1",
-                      {id}));
-    HP_ASSIGN_OR_RETURN(const auto losses,
-                        select_numbers(database_, "SELECT count FROM losses WHERE job=?", {id}));
-    if (losses.front() >= kMostLosses) {
-      const Error lost{
-          Code::kInternal,
-          fmt::format(
-              "the daemon was killed, or its machine crashed, {} times while this job ran, so "
-              "it was not started again; check the daemon's log, and retry the job if the job was "
-              "not the cause",
-              kMostLosses),
-          "DAEMON_LOST",
-          {}};
-      return changes_.finish_failed(id, {lost, {}, {}});
+Result<Job> JobStore::interrupt(std::int64_t id, Interruption why) {
+  return changes_.change(id, [&](const Job& job) -> Status {
+    if (job.state != JobState::kRunning && job.state != JobState::kCancelling) {
+      return state_forbids(job, "only a running job can be interrupted");
     }
-  }
-  return changes_.set_state(id, JobState::kQueued, "queued again");
+    return interrupt_open(changes_, job, why);
+  });
 }
 
-Status JobStore::interrupt_all(Interruption why) {
-  const std::string words =
-      why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
+Status JobStore::interrupt_all(Interruption why, const std::vector<Execution>& kept) {
+  const auto is_kept = [&](std::int64_t id) {
+    return std::any_of(kept.begin(), kept.end(),
+                       [&](const Execution& execution) { return execution.job == id; });
+  };
   return changes_.transaction([&]() -> Status {
-    const auto cancelled = [&](std::int64_t id) {
-      return changes_.finish(id, JobState::kCancelled, words);
-    };
-    const auto interrupted = [&](std::int64_t id) -> Status {
-      HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      const std::string& advice = job.definition.traits.interrupted_advice;
-      return changes_.finish(id, JobState::kInterrupted,
-                             advice.empty() ? words : words + ": " + advice);
-    };
-    HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
-    HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
-    return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
-      HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      if (!job.definition.traits.computed) return interrupted(id);
-      HP_RETURN_IF_ERROR(changes_.set_state(id, JobState::kInterrupted, words));
-      return queue_again(id, why);
-    });
+    for (const JobState state :
+         {JobState::kCancelling, JobState::kWaitingForOperator, JobState::kRunning}) {
+      HP_ASSIGN_OR_RETURN(const auto ids, ids_in_state(state));
+      for (const std::int64_t id : ids) {
+        if (is_kept(id)) continue;
+        HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+        HP_RETURN_IF_ERROR(interrupt_open(changes_, job, why));
+      }
+    }
+    return {};
   });
 }
 

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "daemon/store/calibration.h"
+#include "daemon/store/interruption.h"
 #include "daemon/store/job.h"
 #include "daemon/store/job_changes.h"
+#include "daemon/store/job_rows.h"
 #include "daemon/store/quota.h"
 #include "daemon/store/state_layout.h"
 
@@ -28,16 +30,13 @@ struct JobStoreOptions {
   Quota quota = {};  ///< for each owner
 };
 
-/// Why running jobs are interrupted: the daemon shut down, or it was lost (it was killed, or the
-/// machine crashed), in which case the next daemon finds them running.
-enum class Interruption { kShutdown, kLoss };
-
 /// Stores jobs, their events and the rows of their artifacts. A change and its event are one
 /// transaction, which is on disk when the call returns; the notifier then rings. Thread-safe.
 ///
 /// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
 /// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
-/// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
+/// the daemon shut down, or daemon or worker was lost; the third loss leads to FAILED (DAEMON_LOST,
+/// WORKER_KILLED).
 /// Prints and captures start as RUNNING: RUNNING -> SUCCEEDED | FAILED | INTERRUPTED; RUNNING ->
 /// CANCELLING -> CANCELLED.
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED. From either of these two states:
@@ -77,8 +76,16 @@ class JobStore {
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
 
   /// Starts a queued job: QUEUED -> RUNNING, or -> SUCCEEDED if the artifacts of a job with the
-  /// same inputs can be reused.
-  [[nodiscard]] Result<Job> start(std::int64_t id);
+  /// same inputs can be reused. RUNNING begins a new attempt.
+  /// @param executor  name of the executor that will run the attempt; its execution is stored as
+  ///                  open. Empty: none is stored.
+  [[nodiscard]] Result<Job> start(std::int64_t id, const std::string& executor = "");
+  /// Returns the open executions of all jobs.
+  [[nodiscard]] Result<std::vector<Execution>> executions() { return select_executions(database_); }
+  /// Stores the handle of an open execution.
+  [[nodiscard]] Status note_handle(const Execution& execution) {
+    return store_handle(database_, execution);
+  }
   /// Stores the progress of a running job; ignored in other states.
   [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
   /// Ends a job that succeeded: RUNNING -> SUCCEEDED; CANCELLING -> CANCELLED.
@@ -89,8 +96,12 @@ class JobStore {
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
   /// Interrupts all open jobs. Computed jobs: RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see
   /// JobChanges). Other jobs: RUNNING or WAITING_FOR_OPERATOR -> INTERRUPTED. All: CANCELLING ->
-  /// CANCELLED. The events contain the reason. Call this only when no worker runs.
-  [[nodiscard]] Status interrupt_all(Interruption why);
+  /// CANCELLED. The events contain the reason. Call this only when no worker runs, except in
+  /// `kept`.
+  /// @param kept  executions that go on; their jobs stay as they are
+  [[nodiscard]] Status interrupt_all(Interruption why, const std::vector<Execution>& kept = {});
+  /// Interrupts one computed job that is RUNNING or CANCELLING, in the same way.
+  [[nodiscard]] Result<Job> interrupt(std::int64_t id, Interruption why);
 
   /// Returns artifacts with names after `after`, sorted by name.
   [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
@@ -117,8 +128,6 @@ class JobStore {
   [[nodiscard]] Status check_queue();
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
   void discard_unowned(std::int64_t id);
-  [[nodiscard]] Status queue_again(std::int64_t id, Interruption why);
-  [[nodiscard]] Status change_running(JobState from, const std::function<Status(std::int64_t)>& to);
 
   JobChanges& changes_;
   Database& database_;

@@ -5,6 +5,21 @@
 
 namespace hydroprint::daemon {
 
+/// Paths in the folder of one attempt to run a job.
+struct RunFolder {
+  std::filesystem::path root;
+
+  [[nodiscard]] std::filesystem::path inputs() const { return root / "in"; }
+  /// Returns the only folder that the worker may write to.
+  [[nodiscard]] std::filesystem::path work() const { return root / "work"; }
+  [[nodiscard]] std::filesystem::path out() const { return work() / "out"; }
+  /// Returns the path of the job's spec. It is not in the folder of the inputs, because an input
+  /// may have the same name.
+  [[nodiscard]] std::filesystem::path spec() const { return work() / "spec.json"; }
+  /// Returns the path of the pose file, for jobs whose options are stored as flags.
+  [[nodiscard]] std::filesystem::path pose() const { return work() / "pose.json"; }
+};
+
 /// Paths in the state folder.
 struct Layout {
   std::filesystem::path root;
@@ -19,22 +34,10 @@ struct Layout {
   [[nodiscard]] std::filesystem::path upload(const std::string& id) const { return uploads() / id; }
   /// Folders of running jobs: their inputs, and the worker's output until it is published.
   [[nodiscard]] std::filesystem::path runs() const { return root / "runs"; }
-  [[nodiscard]] std::filesystem::path run(std::int64_t job) const {
-    return runs() / std::to_string(job);
-  }
-  [[nodiscard]] std::filesystem::path run_inputs(std::int64_t job) const { return run(job) / "in"; }
-  [[nodiscard]] std::filesystem::path run_work(std::int64_t job) const { return run(job) / "work"; }
-  [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
-    return run_work(job) / "out";
-  }
-  /// Returns the path of the job's spec. It is not in the folder of the inputs, because an input
-  /// may have the same name.
-  [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
-    return run_work(job) / "spec.json";
-  }
-  /// Returns the path of the pose file, for jobs whose options are stored as flags.
-  [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
-    return run_work(job) / "pose.json";
+  /// Each attempt has its own folder, so that a forgotten worker cannot disturb the next attempt.
+  /// Jobs that are not computed have only one attempt.
+  [[nodiscard]] RunFolder run(std::int64_t job, std::int64_t attempt = 1) const {
+    return {runs() / (std::to_string(job) + "-" + std::to_string(attempt))};
   }
   /// Returns the folder of a resident preview worker.
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
+constexpr std::size_t kLongestLine = 4 << 10;  // of progress
 
 // Keeps printable ASCII and well-formed UTF-8; replaces all other bytes with '?'.
 std::string printable(std::string_view text) {
@@ -170,6 +171,24 @@ std::optional<JobFailure> judge(int wait_status, StopReason stopped, std::string
   if (WIFEXITED(wait_status)) out.exit_status = WEXITSTATUS(wait_status);
   if (WIFSIGNALED(wait_status)) out.signal = WTERMSIG(wait_status);
   return out;
+}
+
+std::vector<std::string> take_progress_lines(std::string& received) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = received.find('\n', begin)) != std::string::npos;
+       begin = end + 1) {
+    if (end - begin <= kLongestLine) lines.push_back(received.substr(begin, end - begin));
+  }
+  received.erase(0, begin);
+  if (received.size() > kLongestLine) received.clear();
+  return lines;
+}
+
+Progress waiting_progress(std::string_view reason) {
+  Progress progress;
+  progress.phase = shortened("waiting: " + printable(reason), kLongestPhase);
+  return progress;
 }
 
 std::optional<Progress> read_progress(std::string_view line, std::int64_t now_ms) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "daemon/store/job.h"
 
@@ -21,6 +22,14 @@ enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StopReason stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});
+
+/// Removes the complete lines from the received bytes of a worker's progress and returns them.
+/// Lines that are too long are dropped, because the worker is untrusted.
+[[nodiscard]] std::vector<std::string> take_progress_lines(std::string& received);
+
+/// Returns the progress of a job whose worker waits in the queue of an engine.
+/// @param reason  the engine's, in words
+[[nodiscard]] Progress waiting_progress(std::string_view reason);
 
 /// Parses one line of a worker's progress; nullopt if it is malformed. The line is untrusted, since
 /// a hostile file may have compromised the worker.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 
 #include "daemon/platform/log.h"
 #include "daemon/workers/fair_scheduler.h"
-#include "daemon/workers/worker_run.h"
+#include "daemon/workers/program_digest.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -21,39 +20,19 @@ namespace {
 constexpr int kTick_ms = 200;
 constexpr int kIdleTick_ms = 5000;
 
-// The hash of the program, recomputed only when the file has changed.
-class ProgramDigest {
- public:
-  explicit ProgramDigest(std::filesystem::path path) : path_(std::move(path)) {}
-
-  Result<std::string> get() {
-    const std::lock_guard lock(mutex_);
-    struct stat info {};
-    if (::stat(path_.c_str(), &info) != 0) {
-      return fail(Code::kInternal,
-                  path_.string() + ": the worker program does not exist; check workers.program",
-                  "WORKER_UNUSABLE");
-    }
-    const std::string stamp = fmt::format("{} {} {}.{}", info.st_ino, info.st_size,
-                                          info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
-    if (stamp != stamp_) {
-      HP_ASSIGN_OR_RETURN(digest_, sha256_of_file(path_));
-      stamp_ = stamp;
-    }
-    return digest_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::filesystem::path path_;
-  std::string stamp_, digest_;
-};
-
 }  // namespace
 
 struct WorkerPool::Impl {
-  Impl(const PoolOptions& o, JobStore& s, JobQueue& q, const Layout& l, Clock c)
-      : options(o), store(s), queue(q), layout(l), clock(std::move(c)), program(o.program) {}
+  Impl(const PoolOptions& o, WorkerExecutor& e, JobStore& s, JobQueue& q, const Layout& l, Clock c,
+       std::chrono::milliseconds silence)
+      : options(o),
+        limits{std::chrono::seconds(o.time_limit_s), silence},
+        executor(e),
+        store(s),
+        queue(q),
+        layout(l),
+        clock(std::move(c)),
+        program(o.program) {}
 
   void loop();
   void wait_for_something() const;
@@ -62,15 +41,18 @@ struct WorkerPool::Impl {
   bool start_next();
   void start_job(const Job& job);
   [[nodiscard]] Status start_worker(const Job& job);
-  [[nodiscard]] Status make_run_folder(const Job& job) const;
-  [[nodiscard]] std::vector<std::string> options_of(const Job& job) const;
+  [[nodiscard]] Status resume_open();
+  [[nodiscard]] RunContext context();
   void give_up_unstarted();
-  [[nodiscard]] Launch plan(const Job& job) const;
+  [[nodiscard]] int threads_for(const Job& job) const;
+  [[nodiscard]] Observations observe() const;
   void step_runs();
   void stop_all();
   [[nodiscard]] std::map<std::string, int> running_by_owner() const;
 
   PoolOptions options;
+  RunLimits limits;
+  WorkerExecutor& executor;
   JobStore& store;
   JobQueue& queue;
   Layout layout;
@@ -78,6 +60,7 @@ struct WorkerPool::Impl {
   ProgramDigest program;
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   std::vector<std::unique_ptr<WorkerRun>> runs;  // used only by the pool's thread
+  bool has_resumed = false;
   std::vector<std::pair<std::int64_t, JobFailure>> unstarted;
   std::atomic<bool> stopping{false};
   mutable std::mutex turns_mutex;  // protects the next two members
@@ -88,12 +71,14 @@ struct WorkerPool::Impl {
 
 WorkerPool::WorkerPool() = default;
 
-Result<std::unique_ptr<WorkerPool>> WorkerPool::make(const PoolOptions& options, JobStore& store,
+Result<std::unique_ptr<WorkerPool>> WorkerPool::make(const PoolOptions& options,
+                                                     WorkerExecutor& executor, JobStore& store,
                                                      JobQueue& queue, const Layout& layout,
-                                                     Clock clock) {
-  HP_RETURN_IF_ERROR(check_confinement(options.confine_program));
+                                                     Clock clock,
+                                                     std::chrono::milliseconds silence) {
   std::unique_ptr<WorkerPool> pool(new WorkerPool);
-  pool->impl_ = std::make_unique<Impl>(options, store, queue, layout, std::move(clock));
+  pool->impl_ =
+      std::make_unique<Impl>(options, executor, store, queue, layout, std::move(clock), silence);
   HP_RETURN_IF_ERROR(pool->impl_->program.get());
   return pool;
 }
@@ -144,7 +129,7 @@ void WorkerPool::wake() {
   if (::write(impl_->notifier.get(), &one, sizeof one) < 0) return;
 }
 
-int WorkerPool::slots() const { return impl_->options.slots; }
+int WorkerPool::slots() const { return impl_->executor.capacity(); }
 
 Result<std::vector<std::int64_t>> WorkerPool::order(std::size_t limit) const {
   HP_ASSIGN_OR_RETURN(const auto waiting, impl_->queue.waiting());
@@ -164,9 +149,7 @@ void WorkerPool::Impl::loop() {
 
 void WorkerPool::Impl::wait_for_something() const {
   std::vector<pollfd> fds{{notifier.get(), POLLIN, 0}};
-  for (const auto& run : runs) {
-    for (const int fd : run->descriptors()) fds.push_back({fd, POLLIN, 0});
-  }
+  for (const int fd : executor.descriptors()) fds.push_back({fd, POLLIN, 0});
   ::poll(fds.data(), fds.size(), runs.empty() ? kIdleTick_ms : kTick_ms);
   std::uint64_t wakeups = 0;
   // Fails if poll() ended for another reason.
@@ -178,15 +161,40 @@ void WorkerPool::Impl::cancel_asked() {
   const auto ids = store.ids_in_state(JobState::kCancelling);
   if (!ids) return;
   for (const auto& run : runs) {
-    if (std::find(ids->begin(), ids->end(), run->job()) != ids->end()) {
+    if (std::find(ids->begin(), ids->end(), run->execution().job) != ids->end()) {
       run->stop(StopReason::kCancel);
     }
   }
 }
 
 void WorkerPool::Impl::start_jobs() {
-  while (runs.size() < static_cast<std::size_t>(options.slots) && start_next()) {
+  if (const Status resumed = resume_open(); !resumed) {
+    log(LogLevel::kError, "jobs_not_resumed", {{"message", resumed.error().message}});
+    return;
   }
+  while (runs.size() < static_cast<std::size_t>(executor.capacity()) && start_next()) {
+  }
+}
+
+// Continues the executions of an earlier daemon, once.
+Status WorkerPool::Impl::resume_open() {
+  if (has_resumed) return {};
+  HP_ASSIGN_OR_RETURN(const auto open, store.executions());
+  std::vector<std::unique_ptr<WorkerRun>> resumed;
+  for (const Execution& execution : open) {
+    HP_ASSIGN_OR_RETURN(const Job job, store.get(execution.job));
+    resumed.push_back(WorkerRun::resume(job, execution, context()));
+  }
+  runs = std::move(resumed);
+  has_resumed = true;
+  return {};
+}
+
+RunContext WorkerPool::Impl::context() {
+  return {executor, layout, limits, [this] {
+            const std::uint64_t one = 1;
+            if (::write(notifier.get(), &one, sizeof one) < 0) return;
+          }};
 }
 
 std::map<std::string, int> WorkerPool::Impl::running_by_owner() const {
@@ -206,7 +214,7 @@ bool WorkerPool::Impl::start_next() {
     running = running_by_owner();
     next = turns.order(*waiting, running, 1);
   }
-  const auto job = store.start(next.front());
+  const auto job = store.start(next.front(), executor.name());
   if (!job) {
     log(LogLevel::kError, "job_not_started",
         {{"job", next.front()}, {"message", job.error().message}});
@@ -227,7 +235,7 @@ bool WorkerPool::Impl::start_next() {
 void WorkerPool::Impl::start_job(const Job& job) {
   const Status status = start_worker(job);
   if (status) return;
-  discard(layout.run(job.id));
+  discard(layout.run(job.id, job.attempts).root);
   log(LogLevel::kError, "worker_not_started",
       {{"job", job.id}, {"message", status.error().message}});
   unstarted.push_back({job.id, {status.error(), {}, {}}});
@@ -235,31 +243,18 @@ void WorkerPool::Impl::start_job(const Job& job) {
 }
 
 Status WorkerPool::Impl::start_worker(const Job& job) {
-  HP_RETURN_IF_ERROR(make_run_folder(job));
-  const auto wake = [this] {
-    const std::uint64_t one = 1;
-    if (::write(notifier.get(), &one, sizeof one) < 0) return;
-  };
-  HP_ASSIGN_OR_RETURN(auto run, WorkerRun::start(job, plan(job), layout,
-                                                 std::chrono::seconds(options.time_limit_s), wake));
+  const RunFolder folder = layout.run(job.id, job.attempts);
+  HP_RETURN_IF_ERROR(make_run_folder(job, folder));
+  const Execution execution{job.id, job.attempts, executor.name(), "", folder.root};
+  HP_ASSIGN_OR_RETURN(
+      auto run, WorkerRun::start(job, execution,
+                                 worker_launch(job, folder, options, threads_for(job)), context()));
   runs.push_back(std::move(run));
+  if (!executor.outlives_daemon()) return {};  // no later daemon needs the handle
+  if (const Status noted = store.note_handle(runs.back()->execution()); !noted) {
+    log(LogLevel::kError, "handle_lost", {{"job", job.id}, {"message", noted.error().message}});
+  }
   return {};
-}
-
-Status WorkerPool::Impl::make_run_folder(const Job& job) const {
-  const Work& work = job.definition.work;
-  HP_RETURN_IF_ERROR(make_folder(layout.run_work(job.id)));
-  if (!work.spec.empty()) return write_file(layout.run_spec(job.id), work.spec);
-  return work.pose_json.empty() ? Status() : write_file(layout.run_pose(job.id), work.pose_json);
-}
-
-/// Returns the job's options: its spec, or its flags if an earlier version of the daemon stored it.
-std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
-  const Work& work = job.definition.work;
-  if (!work.spec.empty()) return spec_options(layout.run_spec(job.id));
-  std::vector<std::string> out = work.flags;
-  if (!work.pose_json.empty()) out.push_back("--pose=" + layout.run_pose(job.id).string());
-  return out;
 }
 
 // Stores the failure of jobs whose worker could not be started. If the store fails, every step
@@ -272,41 +267,37 @@ void WorkerPool::Impl::give_up_unstarted() {
   });
 }
 
-Launch WorkerPool::Impl::plan(const Job& job) const {
+int WorkerPool::Impl::threads_for(const Job& job) const {
+  if (job.definition.threads > 0) return job.definition.threads;
+  if (options.threads > 0) return options.threads;
   // A single job gets all cores; otherwise the cores are divided among running and waiting jobs.
   const auto waiting = queue.waiting();
   const int there =
       static_cast<int>(runs.size()) + 1 + static_cast<int>(waiting ? waiting->size() : 0);
-  const int shared = std::max(1, options.cores / std::clamp(there, 1, options.slots));
-  const int threads = job.definition.threads > 0 ? job.definition.threads
-                      : options.threads > 0      ? options.threads
-                                                 : shared;
-  Launch launch;
-  launch.program = options.program;
-  launch.confine_program = options.confine_program;
-  launch.inputs = layout.run_inputs(job.id);
-  launch.work = layout.run_work(job.id);
-  launch.arguments = {job.definition.work.verb};
-  for (std::string& option : options_of(job)) launch.arguments.push_back(std::move(option));
-  launch.arguments.push_back(fmt::format("--threads={}", threads));
-  launch.arguments.push_back("--out=" + layout.run_out(job.id).string());
-  launch.arguments.push_back(fmt::format("--progress-fd={}", kProgressFd));
-  launch.arguments.emplace_back("--json");
-  launch.limits = {options.memory_bytes,
-                   options.time_limit_s * std::max(threads, options.cores) + 10,
-                   options.file_bytes};
-  return launch;
+  return std::max(1, options.cores / std::clamp(there, 1, executor.capacity()));
+}
+
+Observations WorkerPool::Impl::observe() const {
+  std::vector<Execution> open;
+  for (const auto& run : runs) {
+    if (run->is_open()) open.push_back(run->execution());
+  }
+  return open.empty() ? Observations() : executor.poll(open);
 }
 
 void WorkerPool::Impl::step_runs() {
   const std::int64_t now_ms = clock();
   give_up_unstarted();
-  std::erase_if(runs, [&](const auto& run) { return run->step(store, now_ms); });
+  const Observations seen = observe();
+  std::erase_if(runs, [&](const auto& run) {
+    return run->step(of_job(seen, run->execution().job), store, now_ms);
+  });
   const std::lock_guard lock(turns_mutex);
   running = running_by_owner();
 }
 
 void WorkerPool::Impl::stop_all() {
+  std::erase_if(runs, [](const auto& run) { return run->outlives_daemon(); });
   for (const auto& run : runs) run->stop(StopReason::kShutdown);
   while (!runs.empty()) {
     wait_for_something();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,32 +9,24 @@
 #include "daemon/store/job_queue.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
+#include "daemon/workers/worker_executor.h"
+#include "daemon/workers/worker_launch.h"
+#include "daemon/workers/worker_run.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::daemon {
 
-/// Settings for running workers.
-struct PoolOptions {
-  std::filesystem::path program;
-  std::filesystem::path confine_program;  ///< hydroprint-confine
-  int slots = 1;                          ///< maximum number of workers
-  int cores = 1;    ///< number of processor cores, divided among workers if `threads` is 0
-  int threads = 0;  ///< number of threads per worker; 0: a share of the cores
-  std::int64_t memory_bytes = 0;  ///< limit per worker; 0: no limit
-  std::int64_t time_limit_s = 3600;
-  std::int64_t file_bytes = 4LL << 30;
-};
-
-/// Executes queued jobs from the store: runs a confined worker process for each, and stores the
-/// results. One thread starts and monitors all workers. They are killed when that thread ends, so
-/// no worker survives a killed daemon.
+/// Executes queued jobs from the store: runs a worker for each at a WorkerExecutor, and stores the
+/// results. One thread starts and monitors all workers. Executions that are open in the store when
+/// it starts are offered to the executor, and go on if it adopts them.
 class WorkerPool final : public JobExecutor {
  public:
-  /// @return kFailedPrecondition if workers cannot be confined; kInternal, WORKER_UNUSABLE if the
-  /// program does not exist
-  [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
-                                                                JobStore& store, JobQueue& queue,
-                                                                const Layout& layout, Clock clock);
+  /// @param executor  must outlive the pool, whose thread is its only user
+  /// @param silence   see RunLimits
+  /// @return kInternal, WORKER_UNUSABLE if the program does not exist
+  [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(
+      const PoolOptions& options, WorkerExecutor& executor, JobStore& store, JobQueue& queue,
+      const Layout& layout, Clock clock, std::chrono::milliseconds silence = kMostSilence);
   /// Calls stop() if needed.
   ~WorkerPool() override;
 
@@ -45,8 +36,8 @@ class WorkerPool final : public JobExecutor {
   /// Stores and queues a job.
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Ends the workers and waits a few seconds at most. Their jobs stay RUNNING or CANCELLING in the
-  /// store: see JobStore::interrupt_all().
+  /// Ends the workers and waits a few seconds at most; those that outlive the daemon go on. The
+  /// jobs stay RUNNING or CANCELLING in the store: see surviving() and JobStore::interrupt_all().
   void stop() override;
   /// Makes the pool check the store immediately, for example for a new job or a cancellation.
   void wake();

@@ -1,5 +1,6 @@
 #include "daemon/workers/worker_run.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 
 #include "daemon/jobs/registry.h"
@@ -15,59 +16,81 @@ constexpr std::chrono::seconds kGrace{3};
 // Reports are limited because each is a transaction on disk.
 constexpr milliseconds kReportInterval{250};
 constexpr std::chrono::seconds kTryAgainAfter{1};
-constexpr std::size_t kWordsKept = 16 << 10;
-constexpr std::size_t kLongestLine = 4 << 10;
 
 // Returns whether a retry cannot help, because the job has changed or is gone.
 bool is_settled(const Error& error) {
   return error.code == Code::kFailedPrecondition || error.code == Code::kNotFound;
 }
 
+JobFailure silence_failure(const Execution& execution, milliseconds silence) {
+  return {{Code::kInternal,
+           fmt::format("the executor \"{}\" did not answer for {} minutes, so it is unknown "
+                       "whether the job still runs there; check that it works, and retry the job",
+                       execution.executor,
+                       std::chrono::duration_cast<std::chrono::minutes>(silence).count()),
+           "WORKER_UNUSABLE",
+           {}},
+          {},
+          {}};
+}
+
 }  // namespace
 
-Result<std::unique_ptr<WorkerRun>> WorkerRun::start(const Job& job, const Launch& launch_plan,
-                                                    const Layout& layout,
-                                                    std::chrono::seconds time_limit,
-                                                    std::function<void()> wake) {
-  std::unique_ptr<WorkerRun> run(new WorkerRun(job, layout));
-  run->wake_ = std::move(wake);
-  HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.definition.work.inputs, launch_plan.inputs));
-  HP_ASSIGN_OR_RETURN(run->worker_, launch(launch_plan));
-  run->memory_bytes_ = launch_plan.limits.memory_bytes;
-  run->deadline_ = SteadyClock::now() + time_limit;
+WorkerRun::WorkerRun(const Job& job, Execution execution, RunContext context)
+    : job_(job),
+      execution_(std::move(execution)),
+      context_(std::move(context)),
+      folder_{execution_.folder},
+      last_answer_(SteadyClock::now()) {}
+
+Result<std::unique_ptr<WorkerRun>> WorkerRun::start(const Job& job, Execution execution,
+                                                    const Launch& launch_plan, RunContext context) {
+  HP_RETURN_IF_ERROR(
+      lay_out_inputs(context.layout, job.definition.work.inputs, launch_plan.inputs));
+  HP_ASSIGN_OR_RETURN(execution.handle, context.executor.start(execution, launch_plan));
   log(LogLevel::kInfo, "job_started",
       {{"job", job.id},
        {"owner", job.definition.owner},
        {"verb", job.definition.work.verb},
-       {"pid", std::int64_t{run->worker_.pid}}});
+       {"executor", execution.executor},
+       {"handle", execution.handle}});
+  return std::unique_ptr<WorkerRun>(new WorkerRun(job, std::move(execution), std::move(context)));
+}
+
+std::unique_ptr<WorkerRun> WorkerRun::resume(const Job& job, const Execution& execution,
+                                             RunContext context) {
+  std::unique_ptr<WorkerRun> run(new WorkerRun(job, execution, std::move(context)));
+  run->phase_ = Phase::kOffered;
   return run;
 }
 
 WorkerRun::~WorkerRun() {
-  if (!wait_status_) kill_and_wait(worker_);
   if (publishing_.valid()) publishing_.wait();
-  discard(layout_.run(job_.id));
+  if (is_over_) discard(folder_.root);
 }
 
-std::vector<int> WorkerRun::descriptors() const {
-  std::vector<int> out;
-  for (const UniqueFd* fd :
-       {&worker_.handle, &worker_.progress, &worker_.errors, &worker_.answer}) {
-    if (fd->valid()) out.push_back(fd->get());
-  }
-  return out;
+bool WorkerRun::outlives_daemon() const {
+  return !is_executors_own() || context_.executor.outlives_daemon();
 }
 
-bool WorkerRun::step(JobStore& store, std::int64_t now_ms) {
-  if (wait_status_) return finish(store);
-  read_words();
-  read_progress_lines(store, now_ms);
-  watch_limits();
-  if (!reap()) return false;
-  if (stopped_ == StopReason::kNothing && !judge(*wait_status_, stopped_, words_, answer_)) {
-    begin_publishing();
+bool WorkerRun::is_executors_own() const { return execution_.executor == context_.executor.name(); }
+
+bool WorkerRun::step(const std::optional<Observation>& seen, JobStore& store, std::int64_t now_ms) {
+  if (is_unended()) watch(seen, store, now_ms);
+  if (is_unended()) return false;
+  is_over_ = finish(store);
+  return is_over_;
+}
+
+void WorkerRun::watch(const std::optional<Observation>& seen, JobStore& store,
+                      std::int64_t now_ms) {
+  if (phase_ == Phase::kOffered) {
+    offer_again();
+  } else if (seen) {
+    judge_observation(*seen, now_ms);
   }
-  return finish(store);
+  report(store);
+  if (is_unended()) watch_limits();
 }
 
 void WorkerRun::stop(StopReason why) {
@@ -76,34 +99,60 @@ void WorkerRun::stop(StopReason why) {
     return;
   }
   stopped_ = why;
-  kill_at_ = SteadyClock::now() + kGrace;
-  if (!wait_status_) signal_group(worker_, SIGTERM);
+  if (is_unended()) ask_for_end();
 }
 
-void WorkerRun::read_words() {
-  const auto read = [](UniqueFd& pipe, std::string& words) {
-    if (!pipe.valid()) return;
-    if (!drain(pipe, words, 1 << 20)) pipe.reset();
-    if (words.size() > kWordsKept) words.erase(0, words.size() - kWordsKept);
-  };
-  read(worker_.errors, words_);
-  read(worker_.answer, answer_);
+void WorkerRun::offer_again() {
+  const auto now = SteadyClock::now();
+  if (now < next_offer_) return;
+  next_offer_ = now + kTryAgainAfter;
+  const Adoption answer = offer(context_.executor, execution_);
+  if (answer == Adoption::kNoAnswer) return;
+  last_answer_ = now;
+  if (answer == Adoption::kGone) return lose(Interruption::kLoss);
+  phase_ = Phase::kOpen;
+  log(LogLevel::kInfo, "job_adopted",
+      {{"job", job_.id}, {"executor", execution_.executor}, {"handle", execution_.handle}});
 }
 
-void WorkerRun::read_progress_lines(JobStore& store, std::int64_t now_ms) {
-  if (worker_.progress.valid() && !drain(worker_.progress, progress_bytes_, 1 << 20)) {
-    worker_.progress.reset();
+void WorkerRun::judge_observation(const Observation& seen, std::int64_t now_ms) {
+  last_answer_ = SteadyClock::now();
+  if (const auto* waits = std::get_if<WorkerWaits>(&seen)) {
+    if (waits->reason != waiting_reason_) progress_ = waiting_progress(waits->reason);
+    waiting_reason_ = waits->reason;
+  } else if (const auto* runs = std::get_if<WorkerRuns>(&seen)) {
+    if (!deadline_) deadline_ = last_answer_ + context_.limits.time;
+    take_progress(runs->progress, now_ms);
+  } else if (const auto* end = std::get_if<WorkerEnds>(&seen)) {
+    take_progress(end->progress, now_ms);
+    take_end(*end);
+  } else if (stopped_ != StopReason::kNothing) {
+    take_end({.wait_status = SIGKILL});  // it was asked to end
+  } else {
+    lose(Interruption::kWorkerLoss);
   }
-  std::size_t begin = 0;
-  for (std::size_t end = 0; (end = progress_bytes_.find('\n', begin)) != std::string::npos;
-       begin = end + 1) {
-    const std::string_view line(progress_bytes_.data() + begin, end - begin);
-    if (line.size() > kLongestLine) continue;
+}
+
+void WorkerRun::take_progress(const std::vector<std::string>& lines, std::int64_t now_ms) {
+  for (const std::string& line : lines) {
     if (auto progress = read_progress(line, now_ms)) progress_ = std::move(progress);
   }
-  progress_bytes_.erase(0, begin);
-  if (progress_bytes_.size() > kLongestLine) progress_bytes_.clear();
-  report(store);
+}
+
+void WorkerRun::take_end(const WorkerEnds& end) {
+  phase_ = Phase::kEnded;
+  end_ = end;
+  if (stopped_ != StopReason::kNothing) return;
+  if (end.exceeded_memory) {
+    stopped_ = StopReason::kMemory;
+  } else if (!judge(end.wait_status, stopped_, end.errors, end.answer)) {
+    begin_publishing();
+  }
+}
+
+void WorkerRun::lose(Interruption why) {
+  phase_ = Phase::kLost;
+  loss_ = why;
 }
 
 void WorkerRun::report(JobStore& store) {
@@ -118,35 +167,33 @@ void WorkerRun::report(JobStore& store) {
 
 void WorkerRun::watch_limits() {
   const auto now = SteadyClock::now();
-  if (now >= deadline_) stop(StopReason::kTime);
-  if (memory_bytes_ > 0 && stopped_ == StopReason::kNothing &&
-      resident_bytes(worker_) > memory_bytes_) {
-    stop(StopReason::kMemory);
-    kill_at_ = now;  // no grace period, because the worker might use even more memory
-  }
-  if (kill_at_ && now >= *kill_at_) signal_group(worker_, SIGKILL);
+  if (deadline_ && now >= *deadline_) stop(StopReason::kTime);
+  if (stopped_ != StopReason::kNothing) ask_for_end();
+  if (now - last_answer_ >= context_.limits.silence) phase_ = Phase::kSilent;
 }
 
-// Once the worker has ended, kills its children and returns true.
-bool WorkerRun::reap() {
-  const auto status = wait_for_end(worker_);
-  if (!status) return false;
-  signal_group(worker_, SIGKILL);
-  read_words();
-  wait_status_ = status;
-  worker_.handle.reset();
-  worker_.progress.reset();
-  worker_.errors.reset();
-  worker_.answer.reset();
-  return true;
+// Asks the executor, again each second until it answers, to end the worker; after a grace period at
+// once.
+void WorkerRun::ask_for_end() {
+  const auto now = SteadyClock::now();
+  if (now < next_cancel_ || !is_executors_own()) return;
+  next_cancel_ = now + kTryAgainAfter;
+  const CancelHow how = kill_at_ ? CancelHow::kAtOnce : CancelHow::kGently;
+  if (!context_.executor.cancel(execution_, how) || how == CancelHow::kAtOnce) return;
+  kill_at_ = now + kGrace;
+  next_cancel_ = *kill_at_;
 }
 
 Result<WorkerRun::Outcome> WorkerRun::publish() const {
   Outcome out;
-  HP_ASSIGN_OR_RETURN(out.artifacts,
-                      publish_artifacts(layout_.run_out(job_.id), layout_.artifacts(job_.id)));
+  const auto artifacts = context_.layout.artifacts(job_.id);
+  // An earlier daemon may have been killed after it published them, before it stored the job's end.
+  if (!std::filesystem::exists(folder_.out()) && std::filesystem::exists(artifacts)) {
+    HP_RETURN_IF_ERROR(hydroprint::daemon::publish(artifacts, folder_.out()));
+  }
+  HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(folder_.out(), artifacts));
   HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(job_));
-  HP_ASSIGN_OR_RETURN(out.calibration, kind->calibration(job_, layout_.artifacts(job_.id)));
+  HP_ASSIGN_OR_RETURN(out.calibration, kind->calibration(job_, artifacts));
   return out;
 }
 
@@ -155,7 +202,7 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
 void WorkerRun::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
     auto result = publish();
-    wake_();
+    context_.wake();
     return result;
   });
 }
@@ -189,23 +236,31 @@ void WorkerRun::free_disk_for(const Error& error) {
 // Deletes the output of a failed worker before the end of its job is stored, because the output may
 // have filled the disk.
 void WorkerRun::discard_output() const {
-  discard(layout_.run(job_.id));
-  discard(layout_.artifacts(job_.id));
+  discard(folder_.root);
+  discard(context_.layout.artifacts(job_.id));
 }
 
 Result<Job> WorkerRun::store_end(JobStore& store) const {
+  if (phase_ == Phase::kLost) return store.interrupt(job_.id, loss_);
+  if (phase_ == Phase::kSilent) {
+    return store.give_up(job_.id, silence_failure(execution_, context_.limits.silence));
+  }
   if (published_ && *published_) {
     return store.succeed(job_.id, (*published_)->artifacts, (*published_)->calibration);
   }
   if (published_) return store.give_up(job_.id, {published_->error(), {}, {}});
   const JobFailure cancelled{{Code::kCancelled, "cancelled", "", {}}, {}, {}};
-  return store.give_up(job_.id,
-                       judge(*wait_status_, stopped_, words_, answer_).value_or(cancelled));
+  return store.give_up(
+      job_.id, judge(end_.wait_status, stopped_, end_.errors, end_.answer).value_or(cancelled));
 }
 
 void WorkerRun::log_end(const Result<Job>& job) const {
   if (!job) {
     log(LogLevel::kError, "job_end_lost", {{"job", job_.id}, {"message", job.error().message}});
+    return;
+  }
+  if (!is_finished(job->state)) {
+    log(LogLevel::kWarning, "worker_lost", {{"job", job_.id}, {"state", name_of(job->state)}});
     return;
   }
   const std::string message = job->failure ? job->failure->error.message : "";

@@ -1,43 +1,73 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <future>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "daemon/store/artifact_files.h"
 #include "daemon/store/job_store.h"
-#include "daemon/workers/child_process.h"
+#include "daemon/workers/worker_executor.h"
 #include "daemon/workers/worker_outcome.h"
 
 namespace hydroprint::daemon {
 
-/// Runs one job in its worker, from the start of the process to the end of the job in the store.
-/// Used by one thread (of the pool or of a capture), which it never blocks.
+/// How long the executor may know nothing about a worker before its job fails. The upgrade of an
+/// engine, or the restart of its machine, takes less than an hour. After that, somebody has to look
+/// at the engine, and the owner of the job has to learn it.
+inline constexpr std::chrono::seconds kMostSilence{3600};
+
+/// Limits of one worker.
+struct RunLimits {
+  std::chrono::seconds time;  ///< from its first sign of life; after an adoption, from the adoption
+  std::chrono::milliseconds silence = kMostSilence;
+};
+
+/// What a WorkerRun needs; must outlive it.
+struct RunContext {
+  WorkerExecutor& executor;
+  const Layout& layout;
+  RunLimits limits;
+  /// Called from another thread when step() has something to do.
+  std::function<void()> wake;
+};
+
+/// Follows one execution, from its start or adoption to the end of its job in the store: judges
+/// what the executor reports. Used by one thread (of the pool or of a capture), which it never
+/// blocks.
 class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Creates the input folder and starts the worker. `wake` is called from another thread when
-  /// step() has something to do.
-  static Result<std::unique_ptr<WorkerRun>> start(const Job& job, const Launch& launch,
-                                                  const Layout& layout,
-                                                  std::chrono::seconds time_limit,
-                                                  std::function<void()> wake);
+  /// Creates the input folder and starts the worker.
+  [[nodiscard]] static Result<std::unique_ptr<WorkerRun>> start(const Job& job, Execution execution,
+                                                                const Launch& launch,
+                                                                RunContext context);
+  /// Continues an execution that an earlier daemon started. step() offers it to the executor, again
+  /// each second until there is an answer.
+  [[nodiscard]] static std::unique_ptr<WorkerRun> resume(const Job& job, const Execution& execution,
+                                                         RunContext context);
+  /// Deletes the folder of the run, unless the execution goes on.
   ~WorkerRun();
   WorkerRun(const WorkerRun&) = delete;
   WorkerRun& operator=(const WorkerRun&) = delete;
 
-  [[nodiscard]] std::int64_t job() const { return job_.id; }
   [[nodiscard]] const std::string& owner() const { return job_.definition.owner; }
-  /// Returns descriptors that become readable when step() has something to do.
-  [[nodiscard]] std::vector<int> descriptors() const;
+  [[nodiscard]] const Execution& execution() const { return execution_; }
+  /// Returns whether step() needs an observation of the worker.
+  [[nodiscard]] bool is_open() const { return phase_ == Phase::kOpen; }
+  /// Returns whether the worker, if it runs, goes on when the daemon ends.
+  [[nodiscard]] bool outlives_daemon() const;
 
-  /// Reads output, checks limits and performs the next action. Returns true once the end of the job
-  /// is stored, or the worker has ended after a stop for shutdown. A failed write is retried.
-  [[nodiscard]] bool step(JobStore& store, std::int64_t now_ms);
-  /// Requests the worker to end; it is killed after 3 s.
+  /// Judges what the executor observed (nullopt: no answer), checks limits and performs the next
+  /// action. Returns true once the end of the job is stored, or the worker has ended after a stop
+  /// for shutdown. A failed write is retried.
+  [[nodiscard]] bool step(const std::optional<Observation>& seen, JobStore& store,
+                          std::int64_t now_ms);
+  /// Requests the worker to end; it is killed 3 s after the executor accepted the request.
   void stop(StopReason why);
 
  private:
@@ -46,13 +76,22 @@ class WorkerRun {
     std::vector<Artifact> artifacts;
     std::optional<NewCalibration> calibration;
   };
+  enum class Phase { kOffered, kOpen, kEnded, kLost, kSilent };
 
-  WorkerRun(const Job& job, const Layout& layout) : job_(job), layout_(layout) {}
-  void read_words();
-  void read_progress_lines(JobStore& store, std::int64_t now_ms);
+  WorkerRun(const Job& job, Execution execution, RunContext context);
+  [[nodiscard]] bool is_executors_own() const;
+  [[nodiscard]] bool is_unended() const {
+    return phase_ == Phase::kOffered || phase_ == Phase::kOpen;
+  }
+  void watch(const std::optional<Observation>& seen, JobStore& store, std::int64_t now_ms);
+  void offer_again();
+  void judge_observation(const Observation& seen, std::int64_t now_ms);
+  void take_progress(const std::vector<std::string>& lines, std::int64_t now_ms);
+  void take_end(const WorkerEnds& end);
+  void lose(Interruption why);
   void report(JobStore& store);
   void watch_limits();
-  bool reap();
+  void ask_for_end();
   [[nodiscard]] Result<Outcome> publish() const;
   void begin_publishing();
   bool finish(JobStore& store);
@@ -62,17 +101,19 @@ class WorkerRun {
   void log_end(const Result<Job>& job) const;
 
   Job job_;
-  Layout layout_;
-  std::function<void()> wake_;
-  ChildProcess worker_;
-  std::int64_t memory_bytes_ = 0;
-  Time deadline_;
+  Execution execution_;
+  RunContext context_;
+  RunFolder folder_;
+  Phase phase_ = Phase::kOpen;
+  bool is_over_ = false;
+  Time last_answer_, next_offer_;
+  std::optional<Time> deadline_;  // set when the worker runs
   StopReason stopped_ = StopReason::kNothing;
-  std::optional<Time> kill_at_;
-  std::optional<int> wait_status_;
-  std::string words_;                 // last bytes of the worker's stderr
-  std::string answer_;                // last bytes of the worker's stdout
-  std::string progress_bytes_;        // received bytes of an incomplete line
+  Time next_cancel_;
+  std::optional<Time> kill_at_;  // set when the executor has been asked to end it gently
+  WorkerEnds end_;               // in Phase::kEnded
+  Interruption loss_ = Interruption::kWorkerLoss;  // in Phase::kLost
+  std::string waiting_reason_;
   std::optional<Progress> progress_;  // not yet reported
   Time next_report_, next_end_;
   std::future<Result<Outcome>> publishing_;

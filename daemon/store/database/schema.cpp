@@ -63,6 +63,13 @@ const std::vector<Migration>& migrations() {
         "UPDATE jobs SET computed=0 WHERE verb IN ('dip','print','capture')",
         "UPDATE jobs SET reads_artifacts=1, interrupted_advice='the printer may have printed this "
         "or not; look before you print again' WHERE verb='print'"}},
+      // Version 5: open executions of jobs; see Execution. The key lets a job have only one.
+      // `jobs.attempts` is the number of times that the job was started.
+      {5,
+       {"ALTER TABLE jobs ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0",
+        "CREATE TABLE executions(job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, "
+        "attempt INTEGER NOT NULL, executor TEXT NOT NULL, handle TEXT NOT NULL, "
+        "folder TEXT NOT NULL)"}},
   };
   return all;
 }

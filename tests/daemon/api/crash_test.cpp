@@ -112,8 +112,8 @@ void downgrade_to_version_3(const std::filesystem::path& path) {
   for (const char* const statement :
        {"UPDATE jobs SET flags='--mesh=m.obj'", "ALTER TABLE jobs DROP COLUMN spec",
         "ALTER TABLE jobs DROP COLUMN computed", "ALTER TABLE jobs DROP COLUMN reads_artifacts",
-        "ALTER TABLE jobs DROP COLUMN interrupted_advice",
-        "UPDATE settings SET value='3' WHERE name='schema'"}) {
+        "ALTER TABLE jobs DROP COLUMN interrupted_advice", "ALTER TABLE jobs DROP COLUMN attempts",
+        "DROP TABLE executions", "UPDATE settings SET value='3' WHERE name='schema'"}) {
     const Status done = database->run(statement);
     ASSERT_TRUE(done) << statement << ": " << done.error().message;
   }

@@ -109,7 +109,7 @@ constexpr std::array kVersion3{
     "CREATE INDEX jobs_by_owner ON jobs(owner)",
     "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) WITHOUT ROWID",
     "UPDATE settings SET value='3' WHERE name='schema'"};
-constexpr const char* kLatest = "4";
+constexpr const char* kLatest = "5";
 
 constexpr std::int64_t kMonth_ms = 30LL * 24 * 3600 * 1000;
 
@@ -253,8 +253,12 @@ TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
   ASSERT_EQ(dips.size(), 1U);
   EXPECT_EQ(dips.front().id, 4);
   EXPECT_EQ(JobQueue(changes).computing().value(), std::vector<std::int64_t>{3});
+  EXPECT_TRUE(jobs.executions()->empty());
   ASSERT_TRUE(jobs.interrupt_all(Interruption::kLoss));
   EXPECT_EQ(jobs.get(3)->state, JobState::kQueued) << "a computation is queued again";
+  EXPECT_EQ(jobs.start(3, "local")->attempts, 1) << "starts are counted from version 5 on";
+  ASSERT_EQ(jobs.executions()->size(), 1U);
+  EXPECT_EQ(jobs.executions()->front().job, 3);
   for (const std::int64_t id : {4, 5, 6}) {
     EXPECT_EQ(jobs.get(id)->state, JobState::kInterrupted) << id;
   }
@@ -273,13 +277,13 @@ TEST_F(Migration, NewStoreHasTheLatestVersion) {
 TEST_F(Migration, LaterVersionIsRefusedAndUnchanged) {
   {
     const auto database = open_store(layout.database()).value();
-    ASSERT_TRUE(database->run("UPDATE settings SET value='5' WHERE name='schema'"));
+    ASSERT_TRUE(database->run("UPDATE settings SET value='6' WHERE name='schema'"));
   }
   const auto refused = open_store(layout.database());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "STORE_TOO_NEW");
   EXPECT_NE(refused.error().message.find("hydroprint.db"), std::string::npos);
-  EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "5");
+  EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "6");
 }
 
 TEST_F(Migration, FailedMigrationChangesNothing) {

@@ -76,6 +76,63 @@ TEST_F(JobStoreTest, LostDaemonIsRecordedAndTheJobIsQueuedAgain) {
                                 JobState::kQueued}));
 }
 
+TEST_F(JobStoreTest, ExecutionIsOpenUntilTheJobEndsOrIsQueuedAgain) {
+  const std::int64_t id = add().id;
+  EXPECT_EQ(jobs->start(id, "engine")->attempts, 1);
+  Execution open_one = jobs->executions()->front();
+  EXPECT_EQ(open_one.job, id);
+  EXPECT_EQ(open_one.attempt, 1);
+  EXPECT_EQ(open_one.executor, "engine");
+  EXPECT_EQ(open_one.handle, "");
+  EXPECT_EQ(open_one.folder, layout.run(id, 1).root);
+  open_one.handle = "h-17";
+  ASSERT_TRUE(jobs->note_handle(open_one));
+  EXPECT_EQ(jobs->executions()->front().handle, "h-17");
+  EXPECT_EQ(jobs->interrupt(id, Interruption::kWorkerLoss)->state, JobState::kQueued);
+  EXPECT_TRUE(jobs->executions()->empty());
+  EXPECT_EQ(jobs->start(id, "engine")->attempts, 2);
+  EXPECT_EQ(jobs->executions()->front().folder, layout.run(id, 2).root);
+  ASSERT_TRUE(jobs->note_handle(open_one)) << "of the earlier attempt";
+  EXPECT_EQ(jobs->executions()->front().handle, "");
+  ASSERT_TRUE(jobs->cancel(id));
+  EXPECT_EQ(jobs->executions()->size(), 1U) << "the worker has not ended yet";
+  ASSERT_TRUE(jobs->give_up(id, {}));
+  EXPECT_TRUE(jobs->executions()->empty());
+}
+
+TEST_F(JobStoreTest, KeptExecutionsAreNeitherInterruptedNorSweptAway) {
+  const std::int64_t kept = add("1").id, lost = add("2").id;
+  for (const std::int64_t id : {kept, lost}) {
+    ASSERT_TRUE(jobs->start(id, "engine"));
+    std::filesystem::create_directories(layout.run(id).work());
+    std::filesystem::create_directories(layout.artifacts(id));
+    std::ofstream(layout.artifacts(id) / "film.png") << id;
+  }
+  const std::vector<Execution> going_on{jobs->executions()->front()};
+  ASSERT_TRUE(job_retention->sweep(going_on));
+  ASSERT_TRUE(jobs->interrupt_all(Interruption::kLoss, going_on));
+  EXPECT_EQ(jobs->get(kept)->state, JobState::kRunning);
+  EXPECT_EQ(jobs->get(lost)->state, JobState::kQueued);
+  EXPECT_TRUE(std::filesystem::exists(layout.run(kept).work()));
+  EXPECT_FALSE(std::filesystem::exists(layout.run(lost).root));
+  EXPECT_TRUE(std::filesystem::exists(layout.artifacts(kept) / "film.png"));
+  EXPECT_EQ(set_aside(), std::multiset<std::string>{std::to_string(lost)});
+  ASSERT_EQ(jobs->executions()->size(), 1U);
+  EXPECT_EQ(jobs->executions()->front().job, kept);
+}
+
+TEST_F(JobStoreTest, ThirdLossOfItsWorkerFailsTheJob) {
+  const std::int64_t id = add().id;
+  for (int loss = 1; loss <= 3; ++loss) {
+    ASSERT_TRUE(jobs->start(id, "engine"));
+    ASSERT_TRUE(jobs->interrupt(id, Interruption::kWorkerLoss));
+  }
+  EXPECT_EQ(jobs->get(id)->state, JobState::kFailed);
+  EXPECT_EQ(jobs->get(id)->failure->error.reason, "WORKER_KILLED");
+  EXPECT_TRUE(jobs->executions()->empty());
+  EXPECT_EQ(jobs->interrupt(id, Interruption::kWorkerLoss).error().reason, "STATE_FORBIDS");
+}
+
 TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsOver) {
   const std::int64_t id = add().id;
   for (int loss = 1; loss <= 3; ++loss) {
@@ -272,7 +329,7 @@ TEST_F(JobStoreTest, UnknownFoldersAreSetAsideAtTheStart) {
   ASSERT_TRUE(jobs->start(add("2").id));
   std::filesystem::create_directories(layout.artifacts(2));  // as if killed after the rename
   std::ofstream(layout.artifacts(2) / "film.png") << "not committed";
-  std::filesystem::create_directories(layout.run(2) / "in");
+  std::filesystem::create_directories(layout.run(2).inputs());
   std::filesystem::create_directories(layout.artifacts() / "junk");
   open();
   EXPECT_TRUE(std::filesystem::exists(layout.artifacts(1) / "film.png"));
