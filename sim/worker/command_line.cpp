@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "proto/flags/field_flag.h"
+#include "sim/base/process/progress_sinks.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/input_folder.h"
@@ -68,6 +69,7 @@ class VerbParser {
   [[nodiscard]] std::string usage_problem() const;
   [[nodiscard]] Status read_files();
   [[nodiscard]] Result<std::unique_ptr<Task>> plan() const;
+  [[nodiscard]] Status create_progress_file() const;
   [[nodiscard]] std::filesystem::path inputs() const;
   [[nodiscard]] int threads() const;
   [[nodiscard]] Error located(Error error) const;
@@ -106,6 +108,9 @@ void VerbParser::add_run_flags() {
     app_.add_option("--progress-fd", options.progress_fd,
                     "File descriptor for progress, one JSON object per line")
         ->type_name("N");
+    add_path(app_, "--progress-file", options.progress_file,
+             "File to which the same lines are appended, at most four times a second", "FILE");
+    app_.get_option("--progress-file")->excludes("--progress-fd");
   }
   flags::add_field(app_, *spec_, *spec_->GetDescriptor()->FindFieldByName("threads"))
       ->description("Number of threads; default: all cores");
@@ -130,6 +135,9 @@ void VerbParser::add_spec_flags() {
 std::string VerbParser::usage_problem() const {
   const RunOptions& o = run_.options;
   if (verb_.leaves_folder && o.out.empty()) return "--out: empty. Name a folder";
+  if (verb_.leaves_folder && app_.count("--progress-file") > 0 && o.progress_file.empty()) {
+    return "--progress-file: empty. Name a file";
+  }
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it first";
   }
@@ -168,6 +176,13 @@ Result<std::unique_ptr<Task>> VerbParser::plan() const {
   return verb_.plan(*spec_, InputFolder(inputs(), flags_.pose_file()));
 }
 
+Status VerbParser::create_progress_file() const {
+  const std::filesystem::path& file = run_.options.progress_file;
+  Status made = file.empty() ? Status{} : ProgressFile::create(file);
+  if (!made) made.error().message.insert(0, "--progress-file: ");
+  return made;
+}
+
 int VerbParser::threads() const {
   const auto& field = *spec_->GetDescriptor()->FindFieldByName("threads");
   const auto& reflection = *spec_->GetReflection();
@@ -202,6 +217,9 @@ CommandLine VerbParser::settle() {
   }
   auto task = plan();
   if (!task) return refuse_options(task.error());
+  if (Status made = create_progress_file(); !made) {
+    return refuse(run_.options, ExitStatus::kUsage, std::move(made).error());
+  }
   CommandLine out;
   out.run = run_.options;
   out.run.threads = threads();

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <utility>
+
 #include "sim/base/process/progress.h"
+#include "sim/base/result.h"
 
 namespace hydroprint::worker {
 
@@ -14,6 +20,27 @@ class ProgressPipe {
 
  private:
   int fd_;
+};
+
+/// Collects reports as the lines of ProgressPipe and appends them to a file (option
+/// `--progress-file`), which another machine may read over a shared file system. The file is never
+/// rewritten, and each append is one write of whole lines, so a reader can remember its offset.
+class ProgressFile {
+ public:
+  /// Creates the file unless it exists. Error: kInvalidArgument if that is impossible.
+  [[nodiscard]] static Status create(const std::filesystem::path& path);
+
+  /// @param path  an existing file; empty: no progress
+  explicit ProgressFile(std::filesystem::path path) : path_(std::move(path)) {}
+  void write(const ProgressReport& report);
+  /// Appends the reports since the last call. Drops them if that fails. May be called from another
+  /// thread than write(), which does not wait for the disk.
+  void append();
+
+ private:
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  std::string pending_;
 };
 
 /// Shows a progress line with bar, stage and time left. Prints only to a terminal.

@@ -2,32 +2,51 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "sim/base/artifact_file.h"
+#include "sim/base/process/periodic_thread.h"
 #include "sim/base/process/progress_sinks.h"
 
 namespace hydroprint::worker {
 namespace {
+
+constexpr std::chrono::milliseconds kAppendPeriod(250);
 
 double seconds_now() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration<double>(now).count();
 }
 
-/// Sends progress to the pipe, if there is one, and to stderr, if it is a terminal.
+/// Sends progress to the pipe or file, if there is one, and to stderr, if it is a terminal. A
+/// thread of its own appends to the file, so that a slow disk does not slow the computation.
 class ProgressSink {
  public:
-  ProgressSink(int pipe, int stderr_fd) : pipe_(pipe), line_(stderr_fd) {}
+  ProgressSink(const RunOptions& options, int stderr_fd)
+      : pipe_(options.progress_fd), file_(options.progress_file), line_(stderr_fd) {
+    if (options.progress_file.empty()) return;
+    appending_.emplace(kAppendPeriod, [this] { file_.append(); });
+  }
+  ~ProgressSink() {
+    appending_.reset();
+    file_.append();
+  }
+  ProgressSink(const ProgressSink&) = delete;
+  ProgressSink& operator=(const ProgressSink&) = delete;
+
   void operator()(const ProgressReport& report) {
     pipe_.write(report);
+    file_.write(report);
     line_.show(report);
   }
 
  private:
   ProgressPipe pipe_;
+  ProgressFile file_;
   ProgressLine line_;
+  std::optional<PeriodicThread> appending_;
 };
 
 }  // namespace
@@ -61,7 +80,7 @@ Result<Finished> ArtifactTask::run(const RunOptions& options, Termination& termi
   const CleanupAtTermination cleanup(termination, [&folder] { folder.abandon(); });
   Report report;
   {
-    ProgressSink sink(options.progress_fd, stderr_fd);
+    ProgressSink sink(options, stderr_fd);
     Progress progress(stages(), seconds_now, std::ref(sink));
     const Context context{
         options.threads,

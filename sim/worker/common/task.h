@@ -13,7 +13,8 @@ struct RunOptions {
   std::filesystem::path out;
   int threads = 1;
   bool json = false;
-  int progress_fd = -1;  ///< -1: no progress
+  int progress_fd = -1;                 ///< -1: no progress
+  std::filesystem::path progress_file;  ///< empty: no progress
 };
 
 /// The output of a successful run.
@@ -36,8 +37,8 @@ class Task {
   /// Returns what to use if memory runs out, for the message "Use ... or more memory".
   [[nodiscard]] virtual std::string memory_tip() const { return "a smaller model"; }
 
-  /// Runs the task to its end. Reports progress to `progress_fd` of the options and, if `stderr_fd`
-  /// is a terminal, also there. On failure no files remain.
+  /// Runs the task to its end. Reports progress to `progress_fd` or `progress_file` of the options
+  /// and, if `stderr_fd` is a terminal, also there. On failure no files remain.
   [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
                                              int stderr_fd) = 0;
 };

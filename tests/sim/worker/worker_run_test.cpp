@@ -61,6 +61,35 @@ TEST_F(Worker, AStalledOrClosedProgressReaderHasNoEffect) {
   ::close(pipe_ends[1]);
 }
 
+TEST_F(Worker, ProgressInAFileIsThatOfThePipe) {
+  ProcessOptions options;
+  options.files = {{5, folder.path() / "pipe"}};
+  ASSERT_EQ(testing::run(simulate({"--progress-fd", "5"}), options).status, 0);
+  ASSERT_EQ(testing::run(simulate({"--progress-file", path("file")})).status, 0);
+  // Begin and end of each stage, without the time left. What comes between depends on the time.
+  const auto ends_of_stages = [&](const char* name) {
+    std::set<std::string> ends;
+    std::ifstream lines(path(name));
+    for (std::string line; std::getline(lines, line);) {
+      auto progress = nlohmann::json::parse(line);
+      progress.erase("eta_s");
+      const double fraction = progress["fraction"];
+      if (fraction == 0 || fraction == 1) ends.insert(progress.dump());
+    }
+    return ends;
+  };
+  EXPECT_GE(ends_of_stages("file").size(), 6u);
+  EXPECT_EQ(ends_of_stages("file"), ends_of_stages("pipe"));
+  EXPECT_TRUE(content(path("file")).ends_with("}\n"));
+}
+
+TEST_F(Worker, AProgressFileOnAFullDeviceHasNoEffect) {
+  const Ended ended = testing::run(simulate({"--progress-file", "/dev/full"}));
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err.find("/dev/full"), std::string::npos) << ended.err;
+  EXPECT_TRUE(fs::exists(out() + "/film.png"));
+}
+
 TEST_F(Worker, AClosedStdoutIsHarmless) {
   ProcessOptions options;
   options.close_stdout = true;

@@ -27,11 +27,16 @@ TEST_F(Worker, UsageErrorsEndWithStatusTwo) {
                                  {"--model", "honey"},
                                  {"--depth-mm", "deep"},
                                  {"--progress-fd", "77"},
+                                 {"--progress-file", ""},
                                  {"--ink-passes", "-1"},
                                  {"--film-image", "x.png"}}) {
     SCOPED_TRACE(flags[0]);
     expect_refusal(2, simulate(flags), {flags[0]});
   }
+  expect_refusal(2, simulate({"--progress-file", path("no folder") + "/progress"}),
+                 {path("no folder") + "/progress: cannot be created"});
+  expect_refusal(2, simulate({"--progress-file", path("progress"), "--progress-fd", "0"}),
+                 {"--progress-file", "--progress-fd"});
 }
 
 TEST_F(Worker, HelpAndVersionGoToStdout) {
