@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 
 #include "proto/flags/field_flag.h"
 #include "sim/base/process/progress_sinks.h"
+#include "sim/worker/build_id.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/input_folder.h"
@@ -235,6 +237,19 @@ CommandLine print(std::string text) {
   return out;
 }
 
+CommandLine print_version(bool json) {
+  if (!json) return print("hydroprint-worker " HYDROPRINT_VERSION "\n");
+  Result<std::string> id = build_id();
+  if (!id) {
+    RunOptions options;
+    options.json = true;
+    return refuse(options, exit_status(id.error()), std::move(id).error());
+  }
+  const nlohmann::ordered_json line = {{"version", HYDROPRINT_VERSION},
+                                       {"build_id", std::move(*id)}};
+  return print(line.dump() + "\n");
+}
+
 }  // namespace
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
@@ -242,7 +257,12 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "Runs one computation for hydrographic printing and writes an artifact folder.\n"
       "Needs no daemon and no network.");
   app.name("hydroprint-worker");
-  app.set_version_flag("--version", "hydroprint-worker " HYDROPRINT_VERSION);
+  CLI::Option* const version =
+      app.set_version_flag("--version", "hydroprint-worker " HYDROPRINT_VERSION);
+  CLI::Option* const json =
+      app.add_flag("--json")
+          ->description("With --version: print the version and build_id as one JSON object")
+          ->needs(version);
   app.require_subcommand(1);
   RunFlags run;
   std::vector<std::unique_ptr<VerbParser>> parsers;
@@ -253,7 +273,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
-    return print(std::string("hydroprint-worker ") + HYDROPRINT_VERSION + "\n");
+    return print_version(json->count() > 0);
   } catch (const CLI::CallForHelp&) {
     return print(app.help());
   } catch (const CLI::CallForAllHelp&) {
