@@ -12,6 +12,7 @@
 #include "daemon/metrics/health.h"
 #include "daemon/platform/log.h"
 #include "daemon/store/database/schema.h"
+#include "daemon/workers/slurm/slurm_executor.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -35,7 +36,8 @@ PoolOptions pool_options(const Config& config) {
   PoolOptions options;
   options.program = config.workers_program;
   options.confine_program = config.confine_program;
-  options.cores = core_count();
+  // On nodes, whose cores are unknown, a worker gets one unless workers.threads says otherwise.
+  options.cores = config.workers_executor == kLocalExecutor ? core_count() : 1;
   options.threads = static_cast<int>(config.workers_threads);
   options.memory_bytes = config.workers_memory_mib * kMiB;
   options.time_limit_s = config.workers_time_limit_s;
@@ -43,11 +45,19 @@ PoolOptions pool_options(const Config& config) {
   return options;
 }
 
+Result<std::unique_ptr<WorkerExecutor>> make_executor(const Config& config) {
+  if (config.workers_executor == kLocalExecutor) {
+    return std::make_unique<LocalExecutor>(worker_slots(config));
+  }
+  HP_ASSIGN_OR_RETURN(auto slurm, slurm::SlurmExecutor::make(slurm::settings_of(config), {}));
+  return slurm;
+}
+
 PreviewOptions preview_options(const PoolOptions& pool) {
   const std::int64_t a_day_s = 24LL * 3600;  // limit on the processor time of one worker
   return {pool.program,
           pool.confine_program,
-          pool.threads > 0 ? pool.threads : pool.cores,
+          pool.threads > 0 ? pool.threads : core_count(),
           {pool.memory_bytes, a_day_s, pool.file_bytes}};
 }
 
@@ -106,7 +116,7 @@ Status Daemon::open_store(const Config& config) {
   asset_retention_ = std::make_unique<AssetRetention>(
       *database_, layout_, config.assets_keep_unused_days * 24 * kHourMs, system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
-  executor_ = std::make_unique<LocalExecutor>(worker_slots(config));
+  HP_ASSIGN_OR_RETURN(executor_, make_executor(config));
   return repair_store();
 }
 
@@ -114,6 +124,7 @@ Status Daemon::repair_store() {
   HP_ASSIGN_OR_RETURN(const auto kept, surviving(*executor_, *jobs_));
   // sweep() comes first, since it may free disk space that the next step needs.
   HP_RETURN_IF_ERROR(job_retention_->sweep(kept));
+  executor_->keep_only(kept);
   HP_RETURN_IF_ERROR(end_lost_dips(*device_jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss, kept));
   HP_RETURN_IF_ERROR(asset_retention_->sweep());

@@ -25,9 +25,9 @@ Launch plan(const CameraConfig& camera, const RunFolder& folder, double seconds)
   out.program = camera.program;
   out.inputs = folder.inputs();
   out.work = folder.work();
-  out.arguments = {
-      fmt::format("--seconds={:g}", seconds), fmt::format("--patience-s={}", camera.patience_s),
-      "--out=" + folder.out().string(), fmt::format("--progress-fd={}", kProgressFd), "--json"};
+  out.arguments = {fmt::format("--seconds={:g}", seconds),
+                   fmt::format("--patience-s={}", camera.patience_s),
+                   "--out=" + folder.out().string(), "--json"};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
   out.confined = false;  // needs the camera, and reads nothing else

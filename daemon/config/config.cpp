@@ -15,6 +15,7 @@
 
 #include "daemon/config/camera_config.h"
 #include "daemon/config/printer_config.h"
+#include "daemon/config/slurm_config.h"
 #include "hardware/drive/transaction.h"
 
 namespace hydroprint::daemon {
@@ -74,6 +75,13 @@ std::vector<Key> make_keys() {
       {"workers", "memory_mib", Number{&Config::workers_memory_mib, 0, 1 << 24, "MiB"}},
       {"workers", "time_limit_s", Number{&Config::workers_time_limit_s, 1, 2592000, "seconds"}},
       {"workers", "file_mib", Number{&Config::workers_file_mib, 1, 1 << 24, "MiB"}},
+      {"workers", "executor", Text{&Config::workers_executor, {"local", "slurm"}}},
+      {"workers.slurm", "folder", Text{&Config::slurm_folder}},
+      {"workers.slurm", "installation", Text{&Config::slurm_installation}},
+      {"workers.slurm", "partition", Text{&Config::slurm_partition}},
+      {"workers.slurm", "account", Text{&Config::slurm_account}},
+      {"workers.slurm", "options", Text{&Config::slurm_options}},
+      {"workers.slurm", "jobs", Number{&Config::slurm_jobs, 1, 10000, "jobs"}},
       {"rig", "drive", Text{&Config::rig_drive}},
       {"rig", "profile", Text{&Config::rig_profile}},
   };
@@ -191,12 +199,22 @@ std::string suggestion(std::string_view section, std::string_view name) {
   return "see deploy/hydroprintd.toml.example for all keys";
 }
 
+bool is_section(std::string_view name) {
+  return std::any_of(keys().begin(), keys().end(),
+                     [name](const Key& key) { return key.section == name; });
+}
+
 Status read_section(const std::string& name, std::string_view section, const toml::table& table,
                     Config& config) {
   for (const auto& entry : table) {
     const toml::key& toml_key = entry.first;
     const toml::node& node = entry.second;
     const std::string_view key_name = toml_key.str();
+    const std::string inner = fmt::format("{}.{}", section, key_name);
+    if (node.is_table() && is_section(inner)) {
+      HP_RETURN_IF_ERROR(read_section(name, inner, *node.as_table(), config));
+      continue;
+    }
     const auto key = std::find_if(keys().begin(), keys().end(), [&](const Key& k) {
       return k.section == section && k.name == key_name;
     });
@@ -229,6 +247,9 @@ Status check_values(const Config& config, const std::string& name, const toml::t
   if (const auto camera = read_camera_setup(config); !camera) {
     return refuse(name, root["camera"]["layout"].node()->source(), camera.error().message);
   }
+  if (const auto slurm = check_slurm(config); !slurm) {
+    return refuse(name, root["workers"].node()->source(), slurm.error().message);
+  }
   if (config.rig_drive.empty()) return {};
   if (const auto endpoint = drive::parse_endpoint(config.rig_drive); !endpoint) {
     return refuse(name, root["rig"]["drive"].node()->source(),
@@ -252,10 +273,8 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
     Config config;
     for (const auto& entry : root) {
       const toml::key& section = entry.first;
-      const bool known = std::any_of(keys().begin(), keys().end(),
-                                     [&](const Key& key) { return key.section == section.str(); });
       const toml::table* table = entry.second.as_table();
-      if (!known || table == nullptr) {
+      if (!is_section(section.str()) || table == nullptr) {
         return refuse(
             name, section.source(),
             fmt::format("unknown section \"{}\"; the sections are [server], [store], "

@@ -37,14 +37,21 @@ struct Config {
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
   /// workers.threads per worker; 0: the cores are divided among the workers.
   std::int64_t workers_threads = 0;
-  std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
-  std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
-  std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, per file that a worker writes
-  std::string rig_drive;                 ///< rig.drive: "tcp:HOST:PORT" or "rtu:..."; empty: no rig
-  std::string rig_profile;               ///< rig.profile: file with the drive's profile
-  rig::RigConfig rig;                    ///< all other keys of [rig]
-  std::string printer_address;           ///< printer.address: "ipp://..."; empty: no printer
-  std::int64_t printer_patience_s = 20;  ///< printer.patience_s: timeout for answers
+  std::int64_t workers_memory_mib = 4096;      ///< workers.memory_mib per worker; 0: no limit
+  std::int64_t workers_time_limit_s = 3600;    ///< workers.time_limit_s per job
+  std::int64_t workers_file_mib = 4096;        ///< workers.file_mib, per file that a worker writes
+  std::string workers_executor = "local";      ///< workers.executor: "local" or "slurm"
+  std::string slurm_folder;                    ///< workers.slurm.folder, shared with all nodes
+  std::string slurm_installation = "default";  ///< workers.slurm.installation
+  std::string slurm_partition;                 ///< workers.slurm.partition; empty: Slurm's default
+  std::string slurm_account;                   ///< workers.slurm.account; empty: the user's default
+  std::string slurm_options;     ///< workers.slurm.options: options of sbatch, separated by spaces
+  std::int64_t slurm_jobs = 16;  ///< workers.slurm.jobs: how many are handed over at most
+  std::string rig_drive;         ///< rig.drive: "tcp:HOST:PORT" or "rtu:..."; empty: no rig
+  std::string rig_profile;       ///< rig.profile: file with the drive's profile
+  rig::RigConfig rig;            ///< all other keys of [rig]
+  std::string printer_address;   ///< printer.address: "ipp://..."; empty: no printer
+  std::int64_t printer_patience_s = 20;      ///< printer.patience_s: timeout for answers
   std::int64_t printer_time_limit_s = 3600;  ///< printer.time_limit_s per job
   std::string camera_device;                 ///< camera.device: OpenNI2's name; empty: no camera
   std::string camera_program;                ///< camera.program; empty: next to hydroprintd

@@ -236,7 +236,8 @@ Result<Job> JobStore::cancel(std::int64_t id) {
   return marked;
 }
 
-Result<Job> JobStore::start(std::int64_t id, const std::string& executor) {
+Result<Job> JobStore::start(std::int64_t id, const std::string& executor,
+                            const std::filesystem::path& runs) {
   auto started = changes_.change(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
     HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
@@ -247,8 +248,8 @@ Result<Job> JobStore::start(std::int64_t id, const std::string& executor) {
         {changes_.now_ms(), id}));
     if (!executor.empty()) {
       const std::int64_t attempt = job.attempts + 1;
-      HP_RETURN_IF_ERROR(
-          insert_execution(database_, {id, attempt, executor, "", layout_.run(id, attempt).root}));
+      const auto folder = (runs.empty() ? layout_.runs() : runs) / run_name(id, attempt);
+      HP_RETURN_IF_ERROR(insert_execution(database_, {id, attempt, executor, "", folder}));
     }
     return changes_.set_state(id, JobState::kRunning, "");
   });

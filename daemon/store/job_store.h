@@ -79,7 +79,9 @@ class JobStore {
   /// same inputs can be reused. RUNNING begins a new attempt.
   /// @param executor  name of the executor that will run the attempt; its execution is stored as
   ///                  open. Empty: none is stored.
-  [[nodiscard]] Result<Job> start(std::int64_t id, const std::string& executor = "");
+  /// @param runs      where the folder of the execution will be; empty: in the state folder
+  [[nodiscard]] Result<Job> start(std::int64_t id, const std::string& executor = "",
+                                  const std::filesystem::path& runs = {});
   /// Returns the open executions of all jobs.
   [[nodiscard]] Result<std::vector<Execution>> executions() { return select_executions(database_); }
   /// Stores the handle of an open execution.

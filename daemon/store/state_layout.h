@@ -20,6 +20,11 @@ struct RunFolder {
   [[nodiscard]] std::filesystem::path pose() const { return work() / "pose.json"; }
 };
 
+/// Returns the name of the folder of one attempt to run a job.
+[[nodiscard]] inline std::string run_name(std::int64_t job, std::int64_t attempt) {
+  return std::to_string(job) + "-" + std::to_string(attempt);
+}
+
 /// Paths in the state folder.
 struct Layout {
   std::filesystem::path root;
@@ -37,7 +42,7 @@ struct Layout {
   /// Each attempt has its own folder, so that a forgotten worker cannot disturb the next attempt.
   /// Jobs that are not computed have only one attempt.
   [[nodiscard]] RunFolder run(std::int64_t job, std::int64_t attempt = 1) const {
-    return {runs() / (std::to_string(job) + "-" + std::to_string(attempt))};
+    return {runs() / run_name(job, attempt)};
   }
   /// Returns the folder of a resident preview worker.
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {

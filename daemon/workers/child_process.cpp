@@ -115,7 +115,12 @@ std::string in_mib(std::int64_t bytes) {
   return bytes > 0 ? std::to_string((bytes + kMiB - 1) / kMiB) : "unlimited";
 }
 
-// Returns the command that runs a program: its own, or that of hydroprint-confine.
+}  // namespace
+
+std::vector<std::string> spec_options(const std::filesystem::path& spec_file) {
+  return {"--spec=" + spec_file.string(), "--inputs=."};
+}
+
 std::vector<std::string> command_of(const Launch& what) {
   std::vector<std::string> out;
   if (what.confined) {
@@ -130,12 +135,6 @@ std::vector<std::string> command_of(const Launch& what) {
   return out;
 }
 
-}  // namespace
-
-std::vector<std::string> spec_options(const std::filesystem::path& spec_file) {
-  return {"--spec=" + spec_file.string(), "--inputs=."};
-}
-
 Result<ChildProcess> launch(const Launch& what) {
   HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
@@ -143,6 +142,7 @@ Result<ChildProcess> launch(const Launch& what) {
   HP_ASSIGN_OR_RETURN(Pipe requests, make_stdin(what.is_asked));
   std::vector<std::string> arguments = command_of(what);
   std::vector<std::string> environment = make_environment(what.work);
+  environment.insert(environment.end(), what.environment.begin(), what.environment.end());
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
   const ChildPlan plan{argv.front(),        argv.data(),
                        envp.data(),         what.inputs.c_str(),

@@ -25,11 +25,17 @@ struct Launch {
   std::filesystem::path work = {};          ///< the only folder that the program may write to
   confine::Limits limits = {};
   std::filesystem::path confine_program = {};  ///< hydroprint-confine; needed if `confined`
+  std::vector<std::string> environment = {};   ///< more variables, "NAME=value"
+  int threads = 1;                             ///< number of cores that the program uses
+  std::string build_id = {};                   ///< of the program, see ProgramDigest
   bool is_asked = false;                       ///< true: the program reads requests from stdin
   bool confined = true;  ///< false: only resource limits; for trusted programs that need a device
   /// Least nice value of the program: the rig and the daemon's responses have priority over it.
   int niceness = 10;
 };
+
+/// Returns the command that runs a program: its own, or that of hydroprint-confine.
+[[nodiscard]] std::vector<std::string> command_of(const Launch& what);
 
 /// A running worker. It leads its own process group, and is killed when the thread that started it
 /// ends. The non-blocking pipes carry its progress, stderr (`errors`) and stdout (`answer`).

@@ -1,5 +1,6 @@
 #include "daemon/workers/local_executor.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 
 #include "daemon/workers/worker_outcome.h"
@@ -18,7 +19,9 @@ LocalExecutor::~LocalExecutor() {
 
 Result<std::string> LocalExecutor::start(const Execution& execution, const Launch& launch_plan) {
   Worker worker;
-  HP_ASSIGN_OR_RETURN(worker.process, launch(launch_plan));
+  Launch with_progress = launch_plan;
+  with_progress.arguments.push_back(fmt::format("--progress-fd={}", kProgressFd));
+  HP_ASSIGN_OR_RETURN(worker.process, launch(with_progress));
   worker.memory_bytes = launch_plan.limits.memory_bytes;
   const std::string pid = std::to_string(worker.process.pid);
   workers_.insert_or_assign(execution.job, std::move(worker));

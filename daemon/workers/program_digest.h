@@ -8,12 +8,16 @@
 
 namespace hydroprint::daemon {
 
-/// The hash of the worker program, recomputed only when the file has changed. Thread-safe.
+/// The build id of the worker program: equal on two machines if the same worker is installed.
+/// Recomputed only when the program or one of its modules, hydroprint-*.so in its folder, has
+/// changed. Thread-safe.
 class ProgramDigest {
  public:
   explicit ProgramDigest(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Returns the SHA-256, hex; kInternal, WORKER_UNUSABLE if the program does not exist.
+  /// Returns what the program prints with `--version --json`; the SHA-256 of its file if it prints
+  /// no build id, as a script would. Hex. Errors: kInternal, WORKER_UNUSABLE if the program does
+  /// not exist.
   [[nodiscard]] Result<std::string> get();
 
  private:

@@ -29,6 +29,7 @@ struct WorkerEnds {
   std::string errors = {};                 ///< last bytes of its stderr
   std::string answer = {};                 ///< last bytes of its stdout
   bool exceeded_memory = false;            ///< ended because of its memory limit
+  bool exceeded_time = false;              ///< ended by the executor because of its time limit
 };
 
 /// The executor is sure that the execution does not exist: it was never started, or has ended
@@ -55,8 +56,8 @@ enum class Adoption : std::uint8_t { kAdopted, kGone, kNoAnswer };
 /// An execution without a handle may have been started or not; the executor finds it by its job,
 /// attempt and folder.
 ///
-/// Used by one thread at a time, except name(), outlives_daemon() and capacity(), which are
-/// constant.
+/// Used by one thread at a time, except name(), outlives_daemon(), capacity() and runs(),
+/// which are constant.
 class WorkerExecutor {
  public:
   virtual ~WorkerExecutor() = default;
@@ -70,6 +71,10 @@ class WorkerExecutor {
   /// Returns the number of executions that it takes at the same time.
   [[nodiscard]] virtual int capacity() const = 0;
 
+  /// Returns the folder of the folders of executions (run_name()).
+  [[nodiscard]] virtual std::filesystem::path runs(const Layout& layout) const {
+    return layout.runs();
+  }
   /// Starts a worker, whose inputs and folder exist.
   /// @return the handle; empty if the executor cannot tell yet whether it was started. An error
   ///         means that it was not started and never will be.
@@ -83,6 +88,9 @@ class WorkerExecutor {
   /// Takes over an execution of an earlier daemon. Adopted: poll() will report it, also if it has
   /// ended. Gone: it does not run and never will. Can be called repeatedly.
   [[nodiscard]] virtual Adoption adopt(const Execution& execution) = 0;
+
+  /// Deletes the folders of all other executions, if they are not in the state folder.
+  virtual void keep_only(const std::vector<Execution>& /*executions*/) {}
 
   /// Returns descriptors that become readable when poll() has something new. Without any, the
   /// caller polls at intervals.

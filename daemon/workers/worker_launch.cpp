@@ -36,9 +36,9 @@ Launch worker_launch(const Job& job, const RunFolder& folder, const PoolOptions&
   for (std::string& option : options_of(job, folder)) {
     launch.arguments.push_back(std::move(option));
   }
+  launch.threads = threads;
   launch.arguments.push_back(fmt::format("--threads={}", threads));
   launch.arguments.push_back("--out=" + folder.out().string());
-  launch.arguments.push_back(fmt::format("--progress-fd={}", kProgressFd));
   launch.arguments.emplace_back("--json");
   launch.limits = {options.memory_bytes,
                    options.time_limit_s * std::max(threads, options.cores) + 10,

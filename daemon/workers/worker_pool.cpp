@@ -214,7 +214,7 @@ bool WorkerPool::Impl::start_next() {
     running = running_by_owner();
     next = turns.order(*waiting, running, 1);
   }
-  const auto job = store.start(next.front(), executor.name());
+  const auto job = store.start(next.front(), executor.name(), executor.runs(layout));
   if (!job) {
     log(LogLevel::kError, "job_not_started",
         {{"job", next.front()}, {"message", job.error().message}});
@@ -235,7 +235,7 @@ bool WorkerPool::Impl::start_next() {
 void WorkerPool::Impl::start_job(const Job& job) {
   const Status status = start_worker(job);
   if (status) return;
-  discard(layout.run(job.id, job.attempts).root);
+  discard(executor.runs(layout) / run_name(job.id, job.attempts));
   log(LogLevel::kError, "worker_not_started",
       {{"job", job.id}, {"message", status.error().message}});
   unstarted.push_back({job.id, {status.error(), {}, {}}});
@@ -243,12 +243,12 @@ void WorkerPool::Impl::start_job(const Job& job) {
 }
 
 Status WorkerPool::Impl::start_worker(const Job& job) {
-  const RunFolder folder = layout.run(job.id, job.attempts);
+  const RunFolder folder{executor.runs(layout) / run_name(job.id, job.attempts)};
   HP_RETURN_IF_ERROR(make_run_folder(job, folder));
   const Execution execution{job.id, job.attempts, executor.name(), "", folder.root};
-  HP_ASSIGN_OR_RETURN(
-      auto run, WorkerRun::start(job, execution,
-                                 worker_launch(job, folder, options, threads_for(job)), context()));
+  Launch launch = worker_launch(job, folder, options, threads_for(job));
+  HP_ASSIGN_OR_RETURN(launch.build_id, program.get());
+  HP_ASSIGN_OR_RETURN(auto run, WorkerRun::start(job, execution, launch, context()));
   runs.push_back(std::move(run));
   if (!executor.outlives_daemon()) return {};  // no later daemon needs the handle
   if (const Status noted = store.note_handle(runs.back()->execution()); !noted) {
@@ -282,7 +282,7 @@ Observations WorkerPool::Impl::observe() const {
   for (const auto& run : runs) {
     if (run->is_open()) open.push_back(run->execution());
   }
-  return open.empty() ? Observations() : executor.poll(open);
+  return executor.poll(open);
 }
 
 void WorkerPool::Impl::step_runs() {

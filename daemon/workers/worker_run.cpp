@@ -143,8 +143,8 @@ void WorkerRun::take_end(const WorkerEnds& end) {
   phase_ = Phase::kEnded;
   end_ = end;
   if (stopped_ != StopReason::kNothing) return;
-  if (end.exceeded_memory) {
-    stopped_ = StopReason::kMemory;
+  if (end.exceeded_memory || end.exceeded_time) {
+    stopped_ = end.exceeded_memory ? StopReason::kMemory : StopReason::kTime;
   } else if (!judge(end.wait_status, stopped_, end.errors, end.answer)) {
     begin_publishing();
   }

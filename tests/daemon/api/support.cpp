@@ -86,7 +86,8 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options option
   std::ofstream file(config());
   file << "[workers]\nprogram = \"" << options_.worker.string() << "\"\ncount = " << options_.slots
        << "\nmemory_mib = " << options_.memory_mib << "\ntime_limit_s = " << options_.time_limit_s
-       << "\nfile_mib = " << options_.file_mib << "\n[queue]\nmax_jobs = " << options_.max_jobs
+       << "\nfile_mib = " << options_.file_mib << "\n"
+       << options_.workers << "\n[queue]\nmax_jobs = " << options_.max_jobs
        << "\nmax_jobs_per_owner = " << options_.max_jobs_per_owner
        << "\n[store]\nmin_free_mib = 1\n"
        << options_.extra;
@@ -285,6 +286,32 @@ void Client::pause() {
 void Client::resume() {
   v1::Queue queue;
   throw_unless_ok(queues->ResumeQueue(context().get(), {}, &queue), "ResumeQueue");
+}
+
+std::string ball_obj(double radius_mm) {
+  constexpr int kRings = 16, kSectors = 32;
+  std::ostringstream obj;
+  for (int i = 0; i <= kRings; ++i) {
+    for (int j = 0; j < kSectors; ++j) {
+      const double polar = M_PI * i / kRings, turn = 2 * M_PI * j / kSectors;
+      obj << "v " << radius_mm * std::sin(polar) * std::cos(turn) << ' '
+          << radius_mm * std::sin(polar) * std::sin(turn) << ' ' << radius_mm * std::cos(polar)
+          << " 0.8 0.3 0.1\n";
+    }
+  }
+  const auto vertex = [](int i, int j) { return i * kSectors + j % kSectors + 1; };
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < kSectors; ++j) {
+      if (i > 0) {
+        obj << "f " << vertex(i, j) << ' ' << vertex(i + 1, j) << ' ' << vertex(i, j + 1) << '\n';
+      }
+      if (i + 1 < kRings) {
+        obj << "f " << vertex(i, j + 1) << ' ' << vertex(i + 1, j) << ' ' << vertex(i + 1, j + 1)
+            << '\n';
+      }
+    }
+  }
+  return obj.str();
 }
 
 v1::CreateJobRequest simulate_request(const std::string& asset, const std::string& name) {

@@ -74,6 +74,7 @@ class DaemonProcess {
     int max_jobs = 1000;
     int max_jobs_per_owner = 200;
     std::string host = "127.0.0.1";      ///< host of both servers
+    std::string workers;                 ///< further lines of the section [workers]
     std::string extra;                   ///< further lines of the configuration file
     std::vector<std::string> arguments;  ///< further arguments
   };
@@ -153,6 +154,9 @@ class Client {
  private:
   std::string owner_;
 };
+
+/// An OBJ file of a coloured ball.
+std::string ball_obj(double radius_mm = 20);
 
 /// A request for a job whose mesh is this asset.
 v1::CreateJobRequest simulate_request(const std::string& asset, const std::string& name = "m.obj");

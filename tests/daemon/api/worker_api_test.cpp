@@ -206,33 +206,6 @@ TEST_F(Workers, RunInParallelUpToTheNumberOfSlots) {
   client->wait_for("jobs/3", v1::Job::RUNNING);
 }
 
-// An OBJ file of a ball of radius 20 mm.
-std::string ball_obj() {
-  constexpr int kRings = 16, kSectors = 32;
-  std::ostringstream obj;
-  for (int i = 0; i <= kRings; ++i) {
-    for (int j = 0; j < kSectors; ++j) {
-      const double polar = M_PI * i / kRings, turn = 2 * M_PI * j / kSectors;
-      obj << "v " << 20 * std::sin(polar) * std::cos(turn) << ' '
-          << 20 * std::sin(polar) * std::sin(turn) << ' ' << 20 * std::cos(polar)
-          << " 0.8 0.3 0.1\n";
-    }
-  }
-  const auto vertex = [](int i, int j) { return i * kSectors + j % kSectors + 1; };
-  for (int i = 0; i < kRings; ++i) {
-    for (int j = 0; j < kSectors; ++j) {
-      if (i > 0) {
-        obj << "f " << vertex(i, j) << ' ' << vertex(i + 1, j) << ' ' << vertex(i, j + 1) << '\n';
-      }
-      if (i + 1 < kRings) {
-        obj << "f " << vertex(i, j + 1) << ' ' << vertex(i + 1, j) << ' ' << vertex(i + 1, j + 1)
-            << '\n';
-      }
-    }
-  }
-  return obj.str();
-}
-
 /// A tetrahedron with 20 mm edges and colours at its vertices.
 std::string coloured_tetrahedron_ply() {
   return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"

@@ -94,7 +94,7 @@ TEST_F(WorkerRunTest, WorkerThatIsGoneIsQueuedAgain) {
 
 TEST_F(WorkerRunTest, LocalWorkersEndWithTheirExecutorAndAreNotAdopted) {
   const Execution execution{7, 1, kLocalExecutor, "", folder.path()};
-  Launch sleep{.program = "/bin/sleep", .arguments = {"60"}};
+  Launch sleep{.program = "/bin/sh", .arguments = {"-c", "exec sleep 60"}};
   sleep.confine_program = testing::program_path("hydroprint-confine");
   sleep.inputs = sleep.work = folder.path();
   sleep.limits = {.cpu_s = 10, .file_bytes = 1 << 20};

@@ -54,6 +54,7 @@ std::vector<std::string> arguments_of(const Execution& execution, const Launch& 
                                std::to_string(execution.attempt),
                                launch.program.string()};
   out.insert(out.end(), launch.arguments.begin(), launch.arguments.end());
+  out.push_back("--progress-fd=" + std::to_string(kProgressFd));
   return out;
 }
 

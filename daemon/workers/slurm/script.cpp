@@ -1,0 +1,52 @@
+#include "daemon/workers/slurm/script.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace hydroprint::daemon::slurm {
+namespace {
+
+// Comments are for people who look at the folder of a job that runs.
+constexpr const char* kScript = R"sh(#!/bin/sh
+{options}# Written by hydroprintd for one execution of a job.
+trap : TERM INT
+umask 077
+cd -- {folder} || exit 1
+mkdir begun 2>/dev/null || exit 1  # this execution has begun before
+leave() {{ printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; }}
+
+node=$(uname -n)
+build_id=$({worker} --version --json 2>/dev/null | sed -n 's/.*"build_id" *: *"\([0-9a-f]*\)".*/\1/p')
+leave begin "$node ${{SLURM_JOB_ID:-?}} $build_id"
+if [ "$build_id" != {build_id} ]; then
+  echo '{{"error":{{"reason":"WORKER_DIFFERS"}}}}' > answer
+  echo "node $node has build ${{build_id:-unknown}} of the worker, and the daemon's machine has build" \
+    {build_id}"; install the same package on both" > errors
+  leave exit 4
+  exit 4
+fi
+(cd -- {inputs} && exec {command}) </dev/null >answer 2>errors
+leave exit $?
+)sh";
+
+// Returns the text as one word of a shell.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+std::string batch_script(const ScriptPlan& plan) {
+  std::vector<std::string> words;
+  for (const std::string& word : plan.command) words.push_back(quoted(word));
+  std::string options;
+  for (const std::string& option : plan.options) options += "#SBATCH " + option + "\n";
+  return fmt::format(
+      kScript, fmt::arg("options", options), fmt::arg("folder", quoted(plan.folder)),
+      fmt::arg("worker", quoted(plan.worker)), fmt::arg("build_id", quoted(plan.build_id)),
+      fmt::arg("command", fmt::join(words, " ")), fmt::arg("inputs", quoted(plan.inputs)));
+}
+
+}  // namespace hydroprint::daemon::slurm

@@ -1,0 +1,349 @@
+// SlurmExecutor with programs that answer, fail, print garbage or hang as a test wants.
+// cluster_test.cpp runs it with the real Slurm.
+#include "daemon/workers/slurm/slurm_executor.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "daemon/platform/durable_file.h"
+#include "tests/support/content.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/timing.h"
+
+namespace hydroprint::daemon::slurm {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::content;
+using testing::wait_until;
+
+/// The programs of an engine: each adds its arguments to NAME.calls, and then runs NAME.does.
+class ScriptedEngine {
+ public:
+  explicit ScriptedEngine(const std::filesystem::path& folder) : folder_(folder) {
+    std::filesystem::create_directories(folder);
+    for (const std::string name : {"sbatch", "squeue", "scancel"}) {
+      std::ofstream(folder / name)
+          << "#!/bin/sh\ncd '" << folder.string() << "'\necho \"$@\" >> " << name
+          << ".calls\n[ \"$1\" = --version ] || . ./" << name << ".does\n";
+      std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+      does(name, "");
+    }
+    does("sbatch", "echo 1");
+    ::setenv("PATH", (folder.string() + ":" + old_path_).c_str(), 1);
+  }
+  ~ScriptedEngine() { ::setenv("PATH", old_path_.c_str(), 1); }
+  ScriptedEngine(const ScriptedEngine&) = delete;
+  ScriptedEngine& operator=(const ScriptedEngine&) = delete;
+
+  void does(const std::string& name, const std::string& shell_commands) const {
+    const auto file = folder_ / (name + ".does");
+    std::ofstream(file.string() + ".new") << shell_commands << "\n";
+    std::filesystem::rename(file.string() + ".new", file);
+  }
+  void queue(const std::string& lines) const { does("squeue", "printf '" + lines + "'"); }
+  /// The number of calls without --version.
+  [[nodiscard]] std::ptrdiff_t calls(const std::string& name) const {
+    const std::string all = content(folder_ / (name + ".calls"));
+    return std::count(all.begin(), all.end(), '\n') - 1;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::string old_path_ = std::getenv("PATH");
+};
+
+class SlurmExecutorTest : public ::testing::Test {
+ protected:
+  static constexpr SlurmExecutor::Pace kPace{milliseconds(20), milliseconds(500),
+                                             milliseconds(300)};
+
+  [[nodiscard]] Settings settings() const {
+    Settings out;
+    out.folder = folder.path() / "shared";
+    out.installation = "lab";
+    return out;
+  }
+  [[nodiscard]] Execution execution(std::int64_t job = 7) const {
+    Execution out{job, 1, kSlurmExecutor, "", executor->runs({}) / run_name(job, 1)};
+    std::filesystem::create_directories(RunFolder{out.folder}.work());
+    std::filesystem::create_directories(RunFolder{out.folder}.inputs());
+    return out;
+  }
+  [[nodiscard]] Execution started(std::int64_t job = 7) {
+    const Execution out = execution(job);
+    EXPECT_TRUE(executor->start(out, launch));
+    return out;
+  }
+  [[nodiscard]] std::optional<Observation> poll(const Execution& execution) {
+    return of_job(executor->poll({execution}), execution.job);
+  }
+  // Polls until there is an observation of the type.
+  template <class Type>
+  [[nodiscard]] std::optional<Type> wait_for(const Execution& execution) {
+    std::optional<Type> out;
+    (void)wait_until([&] {
+      const auto seen = poll(execution);
+      if (seen && std::holds_alternative<Type>(*seen)) out = std::get<Type>(*seen);
+      return out.has_value();
+    });
+    return out;
+  }
+  // Polls until the engine was asked twice more; returns whether there was no observation.
+  [[nodiscard]] bool is_unknown(const Execution& execution) {
+    const auto calls = engine.calls("squeue");
+    bool out = true;
+    (void)wait_until([&] {
+      out = !poll(execution).has_value() && out;
+      return engine.calls("squeue") >= calls + 2;
+    });
+    return out;
+  }
+  void leave(const Execution& execution, const std::string& file, const std::string& text) const {
+    std::ofstream(execution.folder / (file + ".new")) << text;
+    std::filesystem::rename(execution.folder / (file + ".new"), execution.folder / file);
+  }
+
+  testing::TemporaryFolder folder;
+  ScriptedEngine engine{folder.path() / "bin"};
+  Launch launch{.program = "/bin/true", .build_id = "ab12", .confined = false};
+  std::unique_ptr<SlurmExecutor> executor = SlurmExecutor::make(settings(), kPace).value();
+};
+
+TEST_F(SlurmExecutorTest, WaitingReasonIsReported) {
+  engine.queue("1|PENDING|Resources|hydroprint-lab-7-1\\n");
+  const auto waits = wait_for<WorkerWaits>(started());
+  ASSERT_TRUE(waits);
+  EXPECT_EQ(waits->reason, "Resources");
+}
+
+TEST_F(SlurmExecutorTest, RefusalIsAnErrorWithSlurmsWords) {
+  engine.does("sbatch", "echo sbatch: error: invalid partition specified: nope >&2; exit 1");
+  const auto refused = executor->start(execution(), launch);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, "WORKER_UNUSABLE");
+  EXPECT_NE(refused.error().message.find("invalid partition specified: nope"), std::string::npos);
+}
+
+TEST_F(SlurmExecutorTest, SilentSubmissionIsRepeatedOnceSlurmAnswersAndDoesNotKnowTheJob) {
+  engine.does("sbatch",
+              "echo sbatch: error: Batch job submission failed: Unable to contact slurm controller "
+              "'(connect failure)' >&2; exit 1");
+  engine.does("squeue", "exit 1");
+  const Execution job = started();
+  EXPECT_TRUE(is_unknown(job));
+  EXPECT_EQ(engine.calls("sbatch"), 1);
+  engine.does("sbatch", "echo 5");
+  engine.queue("");
+  EXPECT_TRUE(wait_for<WorkerWaits>(job));
+  EXPECT_EQ(engine.calls("sbatch"), 2);
+}
+
+TEST_F(SlurmExecutorTest, HangingSubmissionEndsAndTheJobIsFoundByItsName) {
+  engine.does("sbatch", "exec sleep 60");
+  const auto begin = testing::Clock::now();
+  const Execution job = started();
+  EXPECT_LT(testing::seconds_since(begin), 30);
+  engine.queue("1|RUNNING|None|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_for<WorkerWaits>(job)) << "not begun yet";
+  std::filesystem::create_directory(job.folder / "begun");
+  EXPECT_TRUE(wait_for<WorkerRuns>(job));
+  EXPECT_EQ(engine.calls("sbatch"), 1);
+}
+
+TEST_F(SlurmExecutorTest, IdThatIsGarbageIsNotNeeded) {
+  engine.does("sbatch", "echo all is well");
+  const Execution job = execution();
+  const auto handle = executor->start(job, launch);
+  ASSERT_TRUE(handle);
+  EXPECT_EQ(*handle, "");
+  engine.queue("1|PENDING|Priority|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_for<WorkerWaits>(job));
+}
+
+TEST_F(SlurmExecutorTest, GarbageFailureOrSilenceOfTheQueueMeansNothing) {
+  const Execution job = started();
+  for (const char* bad : {"echo '{'", "exit 1", "exec sleep 60", "kill -9 $$",
+                          "printf '1|RUNNING|None|hydroprint-lab-7-1'"}) {
+    engine.does("squeue", bad);
+    EXPECT_TRUE(is_unknown(job)) << bad;
+  }
+}
+
+TEST_F(SlurmExecutorTest, ExitFileIsTheTruthWhateverSlurmSays) {
+  const Execution job = started();
+  for (const char* word : {"exit 1", "printf '1|RUNNING|None|hydroprint-lab-7-1\\n'",
+                           "printf '1|NODE_FAIL|None|hydroprint-lab-7-1\\n'"}) {
+    engine.does("squeue", word);
+    leave(job, "exit", "3\n");
+    leave(job, "errors", "a word\n");
+    const auto end = wait_for<WorkerEnds>(job);
+    ASSERT_TRUE(end) << word;
+    EXPECT_EQ(end->wait_status, 3 << 8);
+    EXPECT_EQ(end->errors, "a word\n");
+    EXPECT_FALSE(end->exceeded_time);
+  }
+}
+
+TEST_F(SlurmExecutorTest, SlurmSaysWhyASignalEndedTheWorker) {
+  for (const auto& [state, is_time, is_memory] :
+       {std::tuple("TIMEOUT", true, false), std::tuple("OUT_OF_MEMORY", false, true),
+        std::tuple("FAILED", false, false)}) {
+    const Execution job = started();
+    engine.queue("1|COMPLETING|None|hydroprint-lab-7-1\\n");
+    leave(job, "exit", "130\n");
+    EXPECT_TRUE(is_unknown(job)) << "not final yet";
+    engine.queue(std::string("1|") + state + "|None|hydroprint-lab-7-1\\n");
+    const auto end = wait_for<WorkerEnds>(job);
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->exceeded_time, is_time) << state;
+    EXPECT_EQ(end->exceeded_memory, is_memory) << state;
+    std::filesystem::remove(job.folder / "exit");
+  }
+}
+
+TEST_F(SlurmExecutorTest, LimitThatLeftNoExitFileIsKnownFromSlurm) {
+  const Execution job = started();
+  engine.queue("1|TIMEOUT|TimeLimit|hydroprint-lab-7-1\\n");
+  const auto end = wait_for<WorkerEnds>(job);
+  ASSERT_TRUE(end);
+  EXPECT_TRUE(end->exceeded_time);
+}
+
+TEST_F(SlurmExecutorTest, UnknownJobIsGoneOnlyAfterTheWaitForItsExitFile) {
+  const Execution job = started();
+  std::filesystem::create_directory(job.folder / "begun");
+  engine.queue("");
+  EXPECT_TRUE(is_unknown(job));
+  const auto begin = testing::Clock::now();
+  EXPECT_TRUE(wait_for<WorkerIsGone>(job));
+  EXPECT_GT(testing::seconds_since(begin), 0.1);
+}
+
+TEST_F(SlurmExecutorTest, JobThatSlurmRemembersAgainIsNotGone) {
+  const Execution job = started();
+  std::filesystem::create_directory(job.folder / "begun");
+  engine.queue("");
+  EXPECT_TRUE(is_unknown(job));
+  engine.queue("1|RUNNING|None|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_for<WorkerRuns>(job));
+  engine.queue("");
+  EXPECT_TRUE(is_unknown(job)) << "the wait begins again";
+}
+
+TEST_F(SlurmExecutorTest, CancelledJobThatWaitedIsGoneAtOnce) {
+  const Execution job = started();
+  engine.queue("1|PENDING|Resources|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_for<WorkerWaits>(job));
+  EXPECT_TRUE(executor->cancel(job, CancelHow::kGently));
+  EXPECT_NE(content(folder.path() / "bin/scancel.calls").find("--name=hydroprint-lab-7-1"),
+            std::string::npos);
+  engine.queue("1|CANCELLED|Resources|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_for<WorkerIsGone>(job));
+}
+
+TEST_F(SlurmExecutorTest, CancelThatSlurmDoesNotAnswerIsAnError) {
+  const Execution job = started();
+  engine.does("scancel", "echo scancel: error: no >&2; exit 8");
+  EXPECT_FALSE(executor->cancel(job, CancelHow::kGently));
+}
+
+TEST_F(SlurmExecutorTest, ProgressNeedsNoWordOfSlurm) {
+  const Execution job = started();
+  engine.does("squeue", "exit 1");
+  std::ofstream(progress_file({job.folder})) << "one\ntwo\n";
+  const auto runs = wait_for<WorkerRuns>(job);
+  ASSERT_TRUE(runs);
+  EXPECT_EQ(runs->progress, (std::vector<std::string>{"one", "two"}));
+}
+
+TEST_F(SlurmExecutorTest, AllJobsShareOneQueryAtATime) {
+  auto pace = kPace;
+  pace.between_queries = std::chrono::hours(1);
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), pace).value();
+  std::vector<Execution> jobs;
+  for (std::int64_t job = 1; job <= 20; ++job) jobs.push_back(started(job));
+  const auto before = engine.calls("squeue");
+  for (int i = 0; i < 50; ++i) (void)executor->poll(jobs);
+  EXPECT_TRUE(wait_until([&] {
+    (void)executor->poll(jobs);
+    return executor->descriptors().empty();
+  }));
+  EXPECT_EQ(engine.calls("squeue"), before + 1);
+}
+
+TEST_F(SlurmExecutorTest, AdoptsWhatSlurmKnowsOrWhatHasBegun) {
+  engine.queue("1|RUNNING|None|hydroprint-lab-7-1\\n");
+  const Execution known = started(7), begun = started(8), ended = started(9);
+  std::filesystem::create_directory(begun.folder / "begun");
+  leave(ended, "exit", "0\n");
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), kPace).value();
+  for (const Execution& job : {known, begun, ended}) {
+    EXPECT_EQ(executor->adopt(job), Adoption::kAdopted) << job.job;
+  }
+  const auto end = wait_for<WorkerEnds>(ended);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->wait_status, 0);
+}
+
+TEST_F(SlurmExecutorTest, OffersWhatSlurmDoesNotKnowForAWhileBeforeItIsGone) {
+  const Execution job = started();
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), kPace).value();
+  EXPECT_EQ(executor->adopt(job), Adoption::kNoAnswer);
+  EXPECT_TRUE(wait_until([&] { return executor->adopt(job) == Adoption::kGone; }));
+}
+
+TEST_F(SlurmExecutorTest, SilentSlurmDoesNotMakeAJobGone) {
+  engine.does("squeue", "exit 1");
+  const Execution job = started();
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), kPace).value();
+  (void)executor->adopt(job);
+  const auto calls = engine.calls("squeue");
+  EXPECT_TRUE(wait_until([&] {
+    EXPECT_EQ(executor->adopt(job), Adoption::kNoAnswer);
+    return engine.calls("squeue") > calls + 20;  // longer than the wait for an exit file
+  }));
+}
+
+TEST_F(SlurmExecutorTest, JobThatWasNeverHandedOverIsGone) {
+  const Execution job = execution();
+  EXPECT_EQ(executor->adopt(job), Adoption::kGone);
+}
+
+TEST_F(SlurmExecutorTest, FolderThatIsNotMountedIsNoAnswer) {
+  Execution job = execution();
+  job.folder = folder.path() / "not mounted" / "lab" / "7-1";
+  EXPECT_EQ(executor->adopt(job), Adoption::kNoAnswer);
+}
+
+TEST_F(SlurmExecutorTest, FoldersOfEndedExecutionsAreDeleted) {
+  const Execution kept = started(7), other = started(8);
+  executor->keep_only({kept});
+  EXPECT_TRUE(std::filesystem::exists(kept.folder));
+  EXPECT_FALSE(std::filesystem::exists(other.folder));
+}
+
+TEST_F(SlurmExecutorTest, SecondDaemonOfAnInstallationIsRefused) {
+  const auto second = SlurmExecutor::make(settings(), kPace);
+  ASSERT_FALSE(second);
+  EXPECT_NE(second.error().message.find("workers.slurm.installation"), std::string::npos);
+}
+
+TEST_F(SlurmExecutorTest, MissingProgramIsNamed) {
+  executor.reset();
+  ::setenv("PATH", "/nowhere", 1);
+  const auto without = SlurmExecutor::make(settings(), kPace);
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().message.find("sbatch"), std::string::npos) << without.error().message;
+}
+
+}  // namespace
+}  // namespace hydroprint::daemon::slurm
