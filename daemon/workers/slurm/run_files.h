@@ -19,7 +19,7 @@ namespace hydroprint::daemon::slurm {
 [[nodiscard]] bool has_begun(const RunFolder& folder);
 
 /// Returns how the worker ended, as from waitpid(); nullopt as long as the script left no exit
-/// file. Of the shell's statuses above 128, all but 130 (the worker's own, when it is cancelled)
+/// file. Of the shell's statuses above 128, all except 130 (the worker's own, when it is cancelled)
 /// are signals.
 [[nodiscard]] std::optional<int> wait_status(const RunFolder& folder);
 

@@ -7,6 +7,7 @@
 
 #include "daemon/config/bind_policy.h"
 #include "daemon/config/rig_config_check.h"
+#include "daemon/config/slurm_config.h"
 #include "tests/support/paths.h"
 
 namespace hydroprint::daemon {
@@ -67,6 +68,42 @@ TEST(Config, WrongTypesAndRangesNameTheValidOnes) {
   EXPECT_TRUE(says(problem("[server]\nreflection = 1\n"), "true or false"));
   EXPECT_TRUE(says(problem("[log]\nlevel = \"loud\"\n"), "\"warning\""));
   EXPECT_TRUE(says(problem("[log]\nlevel = 3\n"), "one of"));
+}
+
+TEST(Config, SectionInASectionIsRead) {
+  const auto config = parse_config(
+      "[workers]\nexecutor = \"slurm\"\ncount = 3\n[workers.slurm]\nfolder = \"/shared/h\"\n"
+      "installation = \"lab2\"\noptions = \"--qos=low  --constraint=avx2\"\njobs = 40\n",
+      "d.toml");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->workers_executor, "slurm");
+  EXPECT_EQ(config->workers_count, 3);
+  EXPECT_EQ(config->slurm_folder, "/shared/h");
+  EXPECT_EQ(config->slurm_installation, "lab2");
+  EXPECT_EQ(config->slurm_jobs, 40);
+  EXPECT_EQ(slurm_options(*config), (std::vector<std::string>{"--qos=low", "--constraint=avx2"}));
+}
+
+TEST(Config, SlurmNeedsWhatItCannotGuess) {
+  const auto with = [](const std::string& lines) {
+    return problem("[workers]\nexecutor = \"slurm\"\n[workers.slurm]\n" + lines);
+  };
+  const std::string folder = "folder = \"/shared\"\n";
+  EXPECT_EQ(with(folder), "accepted");
+  EXPECT_TRUE(says(with(""), "workers.slurm.folder")) << with("");
+  EXPECT_TRUE(says(with("folder = \"shared\"\n"), "absolute"));
+  for (const char* name : {"", "Lab", "a-b", "a/b", "a b", "../x"}) {
+    const std::string message = with(folder + "installation = \"" + name + "\"\n");
+    EXPECT_TRUE(says(message, "workers.slurm.installation")) << message;
+  }
+  EXPECT_TRUE(says(with(folder + "partition = \"a b\"\n"), "workers.slurm.partition"));
+  EXPECT_TRUE(says(with(folder + "account = \"$(x)\"\n"), "workers.slurm.account"));
+  EXPECT_TRUE(says(with(folder + "options = \"qos\"\n"), "not an option of sbatch"));
+  EXPECT_TRUE(says(with(folder + "options = \"--qos=a;b\"\n"), "not an option of sbatch"));
+  EXPECT_TRUE(says(with(folder + "options = \"--requeue\"\n"), "the daemon sets --requeue"));
+  EXPECT_TRUE(says(with(folder + "jobs = 0\n"), "from 1 to 10000"));
+  EXPECT_TRUE(says(with(folder + "fodler = 0\n"), "workers.slurm.fodler"));
+  EXPECT_TRUE(says(problem("[workers]\nexecutor = \"condor\"\n"), "\"slurm\""));
 }
 
 TEST(Config, InvalidTomlIsReportedWithItsLine) {

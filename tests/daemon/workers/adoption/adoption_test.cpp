@@ -294,9 +294,19 @@ TEST_F(WorkerAdoption, RandomKillsStartEachWorkerExactlyOnce) {
   start_daemon(3);
   let_go();
   std::multiset<std::string> started;
-  for (int i = 1; i <= kJobs; ++i) EXPECT_TRUE(ends(i, JobState::kSucceeded)) << i;
+  EXPECT_TRUE(wait_until([&] { return is_finished(job(kJobs).state); }, 30));
   for (const std::string& line : starts()) started.insert(line.substr(0, line.find(' ')));
-  for (int i = 1; i <= kJobs; ++i) EXPECT_EQ(started.count(std::to_string(i)), 1U) << i;
+  int given_up = 0;  // lost three times before its worker started, on a machine that is slow enough
+  for (int i = 1; i <= kJobs; ++i) {
+    const bool succeeds = ends(i, JobState::kSucceeded);
+    if (!succeeds) {
+      ++given_up;
+      ASSERT_TRUE(job(i).failure) << i;
+      EXPECT_EQ(job(i).failure->error.reason, "DAEMON_LOST") << job(i).failure->error.message;
+    }
+    EXPECT_EQ(started.count(std::to_string(i)), succeeds ? 1U : 0U) << i;
+  }
+  EXPECT_LE(given_up, 1);
 }
 
 // In this process, since the limit on silence is an hour.

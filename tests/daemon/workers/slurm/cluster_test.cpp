@@ -242,7 +242,8 @@ class WorkerWatch {
     std::map<std::string, std::set<std::string>> attempts;  // by job
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
-      const std::string command = content(entry.path() / "cmdline");
+      std::string command;
+      std::getline(std::ifstream(entry.path() / "cmdline"), command);  // empty if it has ended
       const std::size_t at = command.find("--out=" + prefix_);
       if (at == std::string::npos || command.find("daemon_fake_worker") != 0) continue;
       const std::string run = command.substr(at + 6 + prefix_.size());
