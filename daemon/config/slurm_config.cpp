@@ -12,10 +12,10 @@ namespace {
 constexpr std::size_t kLongestName = 32;
 
 // Options of sbatch on which the daemon relies.
-constexpr std::array<std::string_view, 15> kOwnOptions{
-    "--job-name",  "--requeue", "--no-requeue", "--array",  "--export",
-    "--propagate", "--chdir",   "--input",      "--output", "--error",
-    "--nodes",     "--ntasks",  "--wrap",       "--wait",   "--test-only"};
+constexpr std::array<std::string_view, 18> kOwnOptions{
+    "--job-name", "--requeue", "--no-requeue", "--array",   "--export",   "--propagate",
+    "--chdir",    "--input",   "--output",     "--error",   "--nodes",    "--ntasks",
+    "--wrap",     "--wait",    "--test-only",  "--cluster", "--clusters", "--parsable"};
 
 bool consists_of(std::string_view text, std::string_view extra) {
   return std::all_of(text.begin(), text.end(), [extra](char c) {

@@ -1,6 +1,8 @@
 #include "daemon/store/artifact_files.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +14,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::size_t kMostArtifacts = 1000;
+constexpr const char* kNotPlain = "something other than regular files with plain names";
 
 tl::unexpected<Error> unusable(const std::string& what) {
   return fail(
@@ -20,7 +23,42 @@ tl::unexpected<Error> unusable(const std::string& what) {
       "WORKER_UNUSABLE");
 }
 
+// Copies a regular file that has one name, up to its present size.
+Status copy_plain_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  constexpr std::size_t kBlock = 1 << 20;
+  HP_ASSIGN_OR_RETURN(const UniqueFd source, open_file(from, O_RDONLY | O_NONBLOCK));
+  struct stat info {};
+  if (::fstat(source.get(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_nlink != 1) {
+    return unusable(kNotPlain);
+  }
+  HP_ASSIGN_OR_RETURN(const UniqueFd target, open_file(to, O_WRONLY | O_CREAT | O_EXCL));
+  std::string block(kBlock, '\0');
+  for (std::int64_t done = 0; done < info.st_size;) {
+    const ssize_t count = ::pread(source.get(), block.data(), kBlock, done);
+    if (count < 0) return system_failure(from, "cannot be read");
+    if (count == 0) return unusable("a file that became shorter");
+    const std::string_view bytes(block.data(), static_cast<std::size_t>(count));
+    HP_RETURN_IF_ERROR(write_at(target, to, bytes, done));
+    done += count;
+  }
+  return {};
+}
+
 }  // namespace
+
+Status copy_output(const std::filesystem::path& from, const std::filesystem::path& to) {
+  discard(to);
+  HP_RETURN_IF_ERROR(make_folder(to));
+  std::error_code error;
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(from, error)) {
+    if (++files > kMostArtifacts) return unusable("too many files");
+    const std::string name = entry.path().filename().string();
+    if (!check_file_name("artifact", name) || entry.is_symlink(error)) return unusable(kNotPlain);
+    HP_RETURN_IF_ERROR(copy_plain_file(entry.path(), to / name));
+  }
+  return error ? Status(unusable("no artifacts")) : Status();
+}
 
 std::string media_type(const std::string& name) {
   static constexpr std::array<std::array<const char*, 2>, 12> kTypes{{
@@ -69,7 +107,7 @@ Result<std::vector<Artifact>> publish_artifacts(const std::filesystem::path& fro
     struct stat info {};
     const bool plain = ::lstat(entry.path().c_str(), &info) == 0 && S_ISREG(info.st_mode) &&
                        info.st_nlink == 1 && check_file_name("artifact", name);
-    if (!plain) return unusable("something other than regular files with plain names");
+    if (!plain) return unusable(kNotPlain);
     if (artifacts.size() == kMostArtifacts) return unusable("too many files");
     HP_ASSIGN_OR_RETURN(std::string hash, sha256_of_file(entry.path()));
     HP_RETURN_IF_ERROR(sync_path(entry.path()));

@@ -12,6 +12,12 @@ namespace hydroprint::daemon {
 /// Returns the media type for a file name's extension; "application/octet-stream" if unknown.
 [[nodiscard]] std::string media_type(const std::string& name);
 
+/// Copies a worker's output from another file system to the new folder `to`, file by file: nothing
+/// that still has the output open can change the copy.
+/// @return kInternal, WORKER_UNUSABLE as publish_artifacts(); kResourceExhausted, DISK_FULL
+[[nodiscard]] Status copy_output(const std::filesystem::path& from,
+                                 const std::filesystem::path& to);
+
 /// Creates `folder` with a job's input files, each under its InputFile::name. Replaces an existing
 /// folder.
 /// @return kFailedPrecondition, ASSET_MISSING if a file is missing

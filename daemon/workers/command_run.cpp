@@ -73,7 +73,8 @@ std::optional<CommandEnd> CommandRun::poll() {
   read();
   process_.pid = -1;
   const bool has_exited = ended && WIFEXITED(*ended);
-  return CommandEnd{has_exited ? WEXITSTATUS(*ended) : -1, std::move(output_), last_line(errors_)};
+  return CommandEnd{has_exited ? WEXITSTATUS(*ended) : -1, !ended.has_value(), std::move(output_),
+                    last_line(errors_)};
 }
 
 CommandEnd CommandRun::wait() {

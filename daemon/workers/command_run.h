@@ -11,9 +11,10 @@ namespace hydroprint::daemon {
 
 /// How a program ended.
 struct CommandEnd {
-  int status = -1;     ///< exit status; -1: killed by a signal, or by us because it took too long
-  std::string output;  ///< its stdout
-  std::string errors;  ///< last line of its stderr
+  int status = -1;       ///< exit status; -1: killed by a signal, or by us because it took too long
+  bool is_late = false;  ///< killed by us
+  std::string output = {};  ///< its stdout
+  std::string errors = {};  ///< last line of its stderr
 };
 
 /// One run of a trusted program of this machine, which may hang or print anything. It is killed

@@ -38,9 +38,14 @@ std::string stamp_of_modules(const std::filesystem::path& folder) {
 }
 
 Result<std::string> read_build_id(const std::filesystem::path& program) {
-  const auto end = run_command({program.string(), "--version", "--json"}, "/", kPatience);
-  const bool is_answered = end && end->status == 0;
-  const auto answer = is_answered ? parse_json(end->output).value_or(nullptr) : nullptr;
+  HP_ASSIGN_OR_RETURN(const CommandEnd end,
+                      run_command({program.string(), "--version", "--json"}, "/", kPatience));
+  if (end.is_late) {
+    return fail(Code::kInternal,
+                program.string() + " --version does not answer; check workers.program, and retry",
+                "WORKER_UNUSABLE");
+  }
+  const auto answer = parse_json(end.output).value_or(nullptr);
   if (auto build_id = json_string(answer, "build_id")) return *std::move(build_id);
   return sha256_of_file(program);
 }

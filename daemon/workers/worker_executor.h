@@ -75,6 +75,8 @@ class WorkerExecutor {
   [[nodiscard]] virtual std::filesystem::path runs(const Layout& layout) const {
     return layout.runs();
   }
+  /// Returns why it cannot take executions now, though it may later.
+  [[nodiscard]] virtual Status ready() { return {}; }
   /// Starts a worker, whose inputs and folder exist.
   /// @return the handle; empty if the executor cannot tell yet whether it was started. An error
   ///         means that it was not started and never will be.

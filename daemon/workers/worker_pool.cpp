@@ -38,6 +38,7 @@ struct WorkerPool::Impl {
   void wait_for_something() const;
   void cancel_asked();
   void start_jobs();
+  [[nodiscard]] bool is_ready();
   bool start_next();
   void start_job(const Job& job);
   [[nodiscard]] Status start_worker(const Job& job);
@@ -61,6 +62,7 @@ struct WorkerPool::Impl {
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   std::vector<std::unique_ptr<WorkerRun>> runs;  // used only by the pool's thread
   bool has_resumed = false;
+  std::string unready;  // why no job can start; empty: they can
   std::vector<std::pair<std::int64_t, JobFailure>> unstarted;
   std::atomic<bool> stopping{false};
   mutable std::mutex turns_mutex;  // protects the next two members
@@ -172,8 +174,21 @@ void WorkerPool::Impl::start_jobs() {
     log(LogLevel::kError, "jobs_not_resumed", {{"message", resumed.error().message}});
     return;
   }
-  while (runs.size() < static_cast<std::size_t>(executor.capacity()) && start_next()) {
+  while (!stopping && runs.size() < static_cast<std::size_t>(executor.capacity()) && is_ready() &&
+         start_next()) {
   }
+}
+
+// Returns whether the executor takes executions now. Jobs stay in the queue until it does.
+bool WorkerPool::Impl::is_ready() {
+  const Status ready = executor.ready();
+  const std::string why = ready ? "" : ready.error().message;
+  if (why != unready) {
+    log(ready ? LogLevel::kInfo : LogLevel::kError, ready ? "jobs_start_again" : "jobs_wait",
+        {{"message", why}});
+  }
+  unready = why;
+  return ready.has_value();
 }
 
 // Continues the executions of an earlier daemon, once.

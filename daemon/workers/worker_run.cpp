@@ -142,6 +142,8 @@ void WorkerRun::take_progress(const std::vector<std::string>& lines, std::int64_
 void WorkerRun::take_end(const WorkerEnds& end) {
   phase_ = Phase::kEnded;
   end_ = end;
+  // A worker that ended in time, while an engine did not answer, has succeeded.
+  if (stopped_ == StopReason::kTime && end.wait_status == 0) stopped_ = StopReason::kNothing;
   if (stopped_ != StopReason::kNothing) return;
   if (end.exceeded_memory || end.exceeded_time) {
     stopped_ = end.exceeded_memory ? StopReason::kMemory : StopReason::kTime;
@@ -184,6 +186,20 @@ void WorkerRun::ask_for_end() {
   next_cancel_ = *kill_at_;
 }
 
+// Returns the folder of the worker's output on the disk of the state folder: the output, or a copy,
+// which nothing that the worker left behind on a node can change any more.
+Result<std::filesystem::path> WorkerRun::own_output() const {
+  auto copy = output_copy();
+  if (copy != folder_.out()) HP_RETURN_IF_ERROR(copy_output(folder_.out(), copy));
+  return copy;
+}
+
+std::filesystem::path WorkerRun::output_copy() const {
+  const auto runs = context_.layout.runs();
+  if (folder_.root.parent_path() == runs) return folder_.out();
+  return runs / (folder_.root.filename().string() + ".output");
+}
+
 Result<WorkerRun::Outcome> WorkerRun::publish() const {
   Outcome out;
   const auto artifacts = context_.layout.artifacts(job_.id);
@@ -191,7 +207,8 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
   if (!std::filesystem::exists(folder_.out()) && std::filesystem::exists(artifacts)) {
     HP_RETURN_IF_ERROR(hydroprint::daemon::publish(artifacts, folder_.out()));
   }
-  HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(folder_.out(), artifacts));
+  HP_ASSIGN_OR_RETURN(const auto output, own_output());
+  HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(output, artifacts));
   HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(job_));
   HP_ASSIGN_OR_RETURN(out.calibration, kind->calibration(job_, artifacts));
   return out;
@@ -238,6 +255,7 @@ void WorkerRun::free_disk_for(const Error& error) {
 void WorkerRun::discard_output() const {
   discard(folder_.root);
   discard(context_.layout.artifacts(job_.id));
+  if (const auto copy = output_copy(); copy != folder_.out()) discard(copy);
 }
 
 Result<Job> WorkerRun::store_end(JobStore& store) const {

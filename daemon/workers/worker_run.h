@@ -92,6 +92,8 @@ class WorkerRun {
   void report(JobStore& store);
   void watch_limits();
   void ask_for_end();
+  [[nodiscard]] std::filesystem::path output_copy() const;
+  [[nodiscard]] Result<std::filesystem::path> own_output() const;
   [[nodiscard]] Result<Outcome> publish() const;
   void begin_publishing();
   bool finish(JobStore& store);

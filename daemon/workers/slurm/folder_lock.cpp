@@ -36,9 +36,16 @@ std::string this_host() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
 }
 
-// Distinguishes a process from later ones with its id: the machine's boot, and the process's start
-// in it. Empty if there is no such process.
-std::string life_of(pid_t pid) {
+// Returns where process ids are unique: this boot of this machine, and this container.
+std::string place() {
+  std::error_code ignored;
+  return first_word_of("/proc/sys/kernel/random/boot_id") + "/" +
+         std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+}
+
+// Returns when a process was started, which distinguishes it from later ones with its id. Empty if
+// there is no such process.
+std::string start_of(pid_t pid) {
   std::string stat = text_of(fmt::format("/proc/{}/stat", pid));
   const std::size_t name_end = stat.rfind(')');  // the name may contain spaces
   if (name_end == std::string::npos) return {};
@@ -46,24 +53,24 @@ std::string life_of(pid_t pid) {
   std::string field;
   constexpr int kStartTime = 20;  // of the fields after the name, see proc(5)
   for (int i = 0; i < kStartTime; ++i) fields >> field;
-  return first_word_of("/proc/sys/kernel/random/boot_id") + ":" + field;
+  return field;
 }
 
 struct Holder {
   std::string host;
   pid_t pid = 0;
-  std::string life;
+  std::string place, start;
 };
 
 Holder parse(const std::string& words) {
   Holder out;
-  std::istringstream(words) >> out.host >> out.pid >> out.life;
+  std::istringstream(words) >> out.host >> out.pid >> out.place >> out.start;
   return out;
 }
 
 // The last word makes each lock unique, also within a process.
 std::string own_words() {
-  return fmt::format("{} {} {} {}\n", this_host(), ::getpid(), life_of(::getpid()),
+  return fmt::format("{} {} {} {} {}\n", this_host(), ::getpid(), place(), start_of(::getpid()),
                      first_word_of("/proc/sys/kernel/random/uuid"));
 }
 
@@ -82,7 +89,7 @@ Result<std::int64_t> age_s(const std::filesystem::path& file, const std::string&
 }
 
 bool has_ended(const Holder& holder) {
-  return holder.host == this_host() && !holder.life.empty() && life_of(holder.pid) != holder.life;
+  return holder.place == place() && !holder.start.empty() && start_of(holder.pid) != holder.start;
 }
 
 tl::unexpected<Error> refusal(const std::filesystem::path& file, const Holder& holder,
@@ -102,7 +109,10 @@ Result<bool> create(const std::filesystem::path& file, const std::string& words)
     if (errno == EEXIST) return false;
     return system_failure(file, "cannot be created");
   }
-  HP_RETURN_IF_ERROR(write_at(created, file, words, 0));
+  if (const Status written = write_at(created, file, words, 0); !written) {
+    discard(file);
+    return tl::unexpected(written.error());
+  }
   return true;
 }
 
@@ -151,16 +161,16 @@ FolderLock::~FolderLock() {
 }
 
 Status FolderLock::beat() const {
-  const std::string words = text_of(file_);
-  std::error_code ignored;
-  if (words.empty() && !std::filesystem::exists(file_, ignored)) {
-    HP_ASSIGN_OR_RETURN(const bool is_ours, create(file_, words_));
-    if (is_ours) return {};
-  } else if (words == words_) {
-    if (::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0) == 0) return {};
-    return system_failure(file_, "cannot be changed");
-  }
-  return refusal(file_, parse(text_of(file_)), 0);
+  HP_ASSIGN_OR_RETURN(const bool was_missing, create(file_, words_));
+  if (was_missing) return {};
+  const UniqueFd file(::open(file_.c_str(), O_RDONLY | O_CLOEXEC));
+  std::string words(words_.size() + 1, '\0');
+  const ssize_t count = file.valid() ? ::pread(file.get(), words.data(), words.size(), 0) : -1;
+  if (count < 0) return system_failure(file_, "cannot be read");
+  words.resize(static_cast<std::size_t>(count));
+  if (words != words_) return refusal(file_, parse(words), 0);
+  if (::utimensat(AT_FDCWD, file_.c_str(), nullptr, 0) == 0) return {};
+  return system_failure(file_, "cannot be changed");
 }
 
 }  // namespace hydroprint::daemon::slurm

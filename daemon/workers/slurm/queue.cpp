@@ -24,9 +24,7 @@ Phase phase_of(std::string_view state) {
 
 int rank(Phase phase) { return phase == Phase::kRuns ? 2 : phase == Phase::kWaits ? 1 : 0; }
 
-std::string prefix_of(const std::string& installation) {
-  return "hydroprint-" + installation + "-";
-}
+constexpr std::string_view kPrefix = "hydroprint-";
 
 // Removes the text before the next '|' and returns it.
 std::optional<std::string_view> take_field(std::string_view& line) {
@@ -43,11 +41,11 @@ bool is_number(std::string_view text) {
 }
 
 // Adds one line of the answer; returns false if it is not one.
-bool add_line(std::string_view line, const std::string& prefix, Queue& queue) {
+bool add_line(std::string_view line, Queue& queue) {
   const auto id = take_field(line), state = take_field(line), reason = take_field(line);
   // The id of an array's task has more than digits, but such a job is not ours.
   if (!reason || id->empty() || !is_number(id->substr(0, 1)) || state->empty()) return false;
-  if (!line.starts_with(prefix)) return true;
+  if (!line.starts_with(kPrefix)) return true;
   const QueueEntry entry{phase_of(*state), std::string(*state), std::string(*reason)};
   const auto [at, is_new] = queue.try_emplace(std::string(line), entry);
   if (!is_new && rank(entry.phase) >= rank(at->second.phase)) at->second = entry;
@@ -56,21 +54,21 @@ bool add_line(std::string_view line, const std::string& prefix, Queue& queue) {
 
 }  // namespace
 
-std::string job_name(const std::string& installation, std::int64_t job, std::int64_t attempt) {
-  return fmt::format("{}{}-{}", prefix_of(installation), job, attempt);
+std::string job_name(const std::filesystem::path& folder) {
+  return fmt::format("{}{}-{}", kPrefix, folder.parent_path().filename().string(),
+                     folder.filename().string());
 }
 
 std::vector<std::string> queue_command() {
   return {"squeue", "--me", "--noheader", "--states=all", "--sort=i", "--format=%i|%T|%r|%j"};
 }
 
-std::optional<Queue> parse_queue(std::string_view output, const std::string& installation) {
+std::optional<Queue> parse_queue(std::string_view output) {
   Queue queue;
-  const std::string prefix = prefix_of(installation);
   while (!output.empty()) {
     const std::size_t end = output.find('\n');
-    if (end == std::string_view::npos) return std::nullopt;
-    if (!add_line(output.substr(0, end), prefix, queue)) return std::nullopt;
+    if (end == std::string_view::npos || !add_line(output.substr(0, end), queue))
+      return std::nullopt;
     output.remove_prefix(end + 1);
   }
   return queue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,19 +23,18 @@ struct QueueEntry {
 /// Slurm's word on jobs, by their names.
 using Queue = std::map<std::string, QueueEntry>;
 
-/// Returns the name of the job of an execution: hydroprint-INSTALLATION-JOB-ATTEMPT. Ids of Slurm
-/// are not used, because a controller that was killed gives them out again.
-[[nodiscard]] std::string job_name(const std::string& installation, std::int64_t job,
-                                   std::int64_t attempt);
+/// Returns the name of the job of an execution, from its folder INSTALLATION/JOB-ATTEMPT:
+/// hydroprint-INSTALLATION-JOB-ATTEMPT. Ids of Slurm are not used, because a controller that was
+/// killed gives them out again.
+[[nodiscard]] std::string job_name(const std::filesystem::path& folder);
 
 /// Returns the command that asks for all jobs of the user, ended ones too, as long as Slurm
 /// remembers them (MinJobAge, 300 s unless configured).
 [[nodiscard]] std::vector<std::string> queue_command();
 
-/// Parses the output of queue_command(); keeps the jobs of the installation. Of several jobs with
-/// one name, the one that runs counts most, the one that has ended least.
+/// Parses the output of queue_command(); keeps jobs whose name is one of job_name(). Of several
+/// jobs with one name, the one that runs counts most, the one that has ended least.
 /// @return nullopt if the output is anything else
-[[nodiscard]] std::optional<Queue> parse_queue(std::string_view output,
-                                               const std::string& installation);
+[[nodiscard]] std::optional<Queue> parse_queue(std::string_view output);
 
 }  // namespace hydroprint::daemon::slurm

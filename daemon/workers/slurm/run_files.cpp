@@ -14,26 +14,32 @@
 namespace hydroprint::daemon::slurm {
 namespace {
 
-constexpr std::int64_t kTail = 16 << 10;
 constexpr std::int64_t kReadAtOnce = 1 << 20;
 
-// Reads from an offset; empty if there is no such file, or it has no bytes there. The worker can
-// make anything of its files, also a pipe that nobody writes to.
+// Opens the folder first: a network file system then looks anew for files that did not exist.
+UniqueFd open_folder(const std::filesystem::path& path) {
+  return UniqueFd(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+// Reads from an offset, or the last bytes if it is negative; empty if there is no such file, or it
+// has no bytes there. The worker can make anything of its files, also a pipe that nobody writes to.
 std::string read_from(const std::filesystem::path& path, std::int64_t offset, std::int64_t most) {
-  const auto file = open_file(path, O_RDONLY | O_NONBLOCK);
+  const UniqueFd folder = open_folder(path.parent_path());
+  const UniqueFd file(::openat(folder.get(), path.filename().c_str(),
+                               O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC));
   struct stat info {};
-  if (!file || ::fstat(file->get(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
+  if (::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
+  if (offset < 0) offset = std::max<std::int64_t>(0, info.st_size - most);
   const std::int64_t there = std::clamp<std::int64_t>(info.st_size - offset, 0, most);
   std::string out(static_cast<std::size_t>(there), '\0');
-  const ssize_t count = ::pread(file->get(), out.data(), out.size(), offset);
+  const ssize_t count = ::pread(file.get(), out.data(), out.size(), offset);
   out.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   return out;
 }
 
 std::string tail_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  return error ? "" : read_from(path, std::max<std::int64_t>(0, size - kTail), kTail);
+  constexpr std::int64_t kTail = 16 << 10;
+  return read_from(path, -1, kTail);
 }
 
 constexpr int exited(int status) { return status << 8; }  // as from waitpid()
@@ -45,8 +51,8 @@ std::filesystem::path progress_file(const RunFolder& folder) { return folder.wor
 std::filesystem::path script_file(const RunFolder& folder) { return folder.root / "script"; }
 
 bool has_begun(const RunFolder& folder) {
-  std::error_code ignored;
-  return std::filesystem::exists(folder.root / "begun", ignored);
+  const UniqueFd root = open_folder(folder.root);
+  return ::faccessat(root.get(), "begun", F_OK, 0) == 0;
 }
 
 std::optional<int> wait_status(const RunFolder& folder) {

@@ -9,24 +9,32 @@ namespace {
 // Comments are for people who look at the folder of a job that runs.
 constexpr const char* kScript = R"sh(#!/bin/sh
 {options}# Written by hydroprintd for one execution of a job.
-trap : TERM INT
+trap 'ended=1' TERM INT
+ended=
 umask 077
 cd -- {folder} || exit 1
 mkdir begun 2>/dev/null || exit 1  # this execution has begun before
 leave() {{ printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; }}
+finish() {{
+  leave exit "$1" && exit 0
+  rm -rf work/out exit.new  # the disk is full
+  echo '{{"error":{{"reason":"DISK_FULL"}}}}' > answer
+  leave exit 4
+  exit 1
+}}
 
 node=$(uname -n)
 build_id=$({worker} --version --json 2>/dev/null | sed -n 's/.*"build_id" *: *"\([0-9a-f]*\)".*/\1/p')
 leave begin "$node ${{SLURM_JOB_ID:-?}} $build_id"
+[ -z "$ended" ] || finish 143
 if [ "$build_id" != {build_id} ]; then
   echo '{{"error":{{"reason":"WORKER_DIFFERS"}}}}' > answer
   echo "node $node has build ${{build_id:-unknown}} of the worker, and the daemon's machine has build" \
     {build_id}"; install the same package on both" > errors
-  leave exit 4
-  exit 4
+  finish 4
 fi
 (cd -- {inputs} && exec {command}) </dev/null >answer 2>errors
-leave exit $?
+finish $?
 )sh";
 
 // Returns the text as one word of a shell.

@@ -16,13 +16,9 @@ namespace {
 constexpr std::chrono::milliseconds kCallPatience{1000};
 constexpr std::int64_t kMiB = 1 << 20;
 
-std::string name_of(const Settings& settings, const Execution& execution) {
-  return job_name(settings.installation, execution.job, execution.attempt);
-}
-
 std::vector<std::string> options_of(const Settings& settings, const Execution& execution,
                                     const Launch& launch) {
-  std::vector<std::string> out{"--job-name=" + name_of(settings, execution),
+  std::vector<std::string> out{"--job-name=" + job_name(execution.folder),
                                "--no-requeue",
                                "--export=ALL",
                                "--propagate=NONE",
@@ -42,20 +38,17 @@ std::vector<std::string> options_of(const Settings& settings, const Execution& e
   return out;
 }
 
-// Returns whether words of Slurm's programs mean that the controller did not answer. Everything
-// else that sbatch says is a refusal.
-bool is_silence(std::string_view words) {
-  constexpr std::array<std::string_view, 8> kSilence{"Unable to contact slurm controller",
-                                                     "Socket timed out",
-                                                     "Connection refused",
-                                                     "Connection timed out",
-                                                     "Zero Bytes",
-                                                     "communication",
-                                                     "connection failure",
-                                                     "temporarily unable to accept job"};
-  return std::any_of(kSilence.begin(), kSilence.end(), [words](std::string_view part) {
-    return words.find(part) != std::string_view::npos;
-  });
+// Returns whether sbatch will say the same again. Everything else passes: a controller that is
+// down, busy or out of job slots.
+bool is_final(const CommandEnd& end) {
+  constexpr int kBadOption = 255;
+  constexpr std::array<std::string_view, 8> kFinal{
+      "invalid partition", "Invalid", "not available", "can not be satisfied",
+      "Unable to open",    "denied",  "not permitted", "look like a batch script"};
+  return end.status == kBadOption ||
+         std::any_of(kFinal.begin(), kFinal.end(), [&](std::string_view part) {
+           return end.errors.find(part) != std::string::npos;
+         });
 }
 
 bool is_id(std::string_view text) {
@@ -80,26 +73,26 @@ Status write_script(const Settings& settings, const Execution& execution, const 
 
 Result<Submitted> submit(const Execution& execution) {
   const RunFolder folder{execution.folder};
-  HP_ASSIGN_OR_RETURN(const CommandEnd end,
-                      run_command({"sbatch", "--parsable", script_file(folder).string()},
-                                  folder.work(), kCallPatience));
-  if (end.status < 0 || (end.status != 0 && is_silence(end.errors))) return Submitted{};
-  if (end.status != 0) {
-    return fail(Code::kInternal,
-                fmt::format("Slurm refused the job: {}; check [workers.slurm], and run hydroprint "
-                            "admin check",
-                            end.errors.empty() ? "sbatch gave no reason" : end.errors),
-                "WORKER_UNUSABLE");
+  const auto end = run_command({"sbatch", "--parsable", script_file(folder).string()},
+                               folder.work(), kCallPatience);
+  if (!end) return Submitted{.words = end.error().message};
+  if (end->status < 0) return Submitted{.is_silent = true};
+  if (end->status == 0) {
+    // "ID", or "ID;CLUSTER" in a federation
+    std::string id = end->output.substr(0, end->output.find_first_of(";\n"));
+    return Submitted{.id = is_id(id) ? std::move(id) : ""};
   }
-  // "ID", or "ID;CLUSTER" in a federation
-  std::string id = end.output.substr(0, end.output.find_first_of(";\n"));
-  return Submitted{is_id(id) ? std::move(id) : ""};
+  if (!is_final(*end)) return Submitted{.words = end->errors};
+  return fail(Code::kInternal,
+              fmt::format("Slurm refused the job: {}; check [workers.slurm], and run hydroprint "
+                          "admin check",
+                          end->errors.empty() ? "sbatch gave no reason" : end->errors),
+              "WORKER_UNUSABLE");
 }
 
-Status end_job(const Settings& settings, const Execution& execution) {
+Status end_job(const std::string& name, const std::filesystem::path& folder) {
   HP_ASSIGN_OR_RETURN(const CommandEnd end,
-                      run_command({"scancel", "--me", "--name=" + name_of(settings, execution)},
-                                  execution.folder, kCallPatience));
+                      run_command({"scancel", "--me", "--name=" + name}, folder, kCallPatience));
   if (end.status == 0) return {};
   return fail(Code::kUnavailable, "scancel: " + (end.errors.empty() ? "no answer" : end.errors));
 }

@@ -14,17 +14,19 @@ namespace hydroprint::daemon::slurm {
 
 /// What became of a submission.
 struct Submitted {
-  /// Slurm's id. Empty if Slurm did not answer: then it may have accepted the job or not.
-  std::string id = {};
+  std::string id = {};     ///< Slurm's; empty: it is unknown whether Slurm has the job
+  bool is_silent = false;  ///< Slurm did not answer in time
+  std::string words = {};  ///< why Slurm does not take the job now, in its words; empty: unknown
 };
 
 /// Hands the script of an execution over to Slurm (sbatch), which must not start it again by
 /// itself: the daemon counts attempts.
-/// @return kInternal, WORKER_UNUSABLE with Slurm's words if it refused the job
+/// @return kInternal, WORKER_UNUSABLE with Slurm's words if it will never take the job
 [[nodiscard]] Result<Submitted> submit(const Execution& execution);
 
-/// Asks Slurm to end the job of an execution (scancel): SIGTERM, and SIGKILL after its KillWait.
+/// Asks Slurm to end the jobs of a name (scancel): SIGTERM, and SIGKILL after its KillWait.
+/// @param folder  working directory of scancel
 /// @return an error if Slurm did not answer
-[[nodiscard]] Status end_job(const Settings& settings, const Execution& execution);
+[[nodiscard]] Status end_job(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace hydroprint::daemon::slurm

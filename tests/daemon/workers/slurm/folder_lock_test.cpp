@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 
 #include "tests/support/content.h"
@@ -76,6 +77,15 @@ TEST_F(SlurmFolderLock, KilledHolderOfThisMachineLosesItAtOnce) {
   ASSERT_EQ(status, 0);
   ASSERT_TRUE(std::filesystem::exists(file));
   EXPECT_TRUE(FolderLock::take(file.parent_path()));
+}
+
+// Two containers, or two copies of a virtual machine, may have one host name.
+TEST_F(SlurmFolderLock, HolderOfTheSameNameElsewhereIsNotTakenForEnded) {
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << host.data() << " 999999 otherboot/pid:[1] 77 token\n";
+  EXPECT_FALSE(FolderLock::take(file.parent_path()));
 }
 
 TEST_F(SlurmFolderLock, LockThatIsNotUnderstoodIsRespectedUntilItIsSilent) {

@@ -112,6 +112,17 @@ TEST_F(SlurmScript, TerminatedScriptWaitsForItsWorker) {
   EXPECT_EQ(wait_status(run), 130 << 8);
 }
 
+TEST_F(SlurmScript, TerminatedBeforeItsWorkItDoesNotWork) {
+  std::ofstream(worker) << "#!/bin/sh\ntouch '" << folder.path().string() << "/asked'\nsleep 0.3\n";
+  testing::Process process(command_line("touch ../ran"));
+  ASSERT_TRUE(
+      testing::wait_until([&] { return std::filesystem::exists(folder.path() / "asked"); }));
+  process.signal(SIGTERM);
+  process.wait();
+  EXPECT_EQ(wait_status(run), SIGTERM);
+  EXPECT_FALSE(std::filesystem::exists(run.root / "ran"));
+}
+
 TEST_F(SlurmScript, OptionsComeBeforeTheFirstCommand) {
   (void)command_line("true");
   EXPECT_TRUE(content(script_file(run)).starts_with("#!/bin/sh\n#SBATCH --time=1\n"));

@@ -48,8 +48,10 @@ class ScriptedEngine {
   void queue(const std::string& lines) const { does("squeue", "printf '" + lines + "'"); }
   /// The number of calls without --version.
   [[nodiscard]] std::ptrdiff_t calls(const std::string& name) const {
-    const std::string all = content(folder_ / (name + ".calls"));
-    return std::count(all.begin(), all.end(), '\n') - 1;
+    std::ifstream file(folder_ / (name + ".calls"));
+    std::ptrdiff_t count = 0;
+    for (std::string line; std::getline(file, line);) count += line == "--version" ? 0 : 1;
+    return count;
   }
 
  private:
@@ -59,8 +61,8 @@ class ScriptedEngine {
 
 class SlurmExecutorTest : public ::testing::Test {
  protected:
-  static constexpr SlurmExecutor::Pace kPace{milliseconds(20), milliseconds(500),
-                                             milliseconds(300)};
+  static constexpr SlurmExecutor::Pace kPace{milliseconds(20), milliseconds(500), milliseconds(300),
+                                             milliseconds(100), milliseconds(200)};
 
   [[nodiscard]] Settings settings() const {
     Settings out;
@@ -108,10 +110,15 @@ class SlurmExecutorTest : public ::testing::Test {
     std::filesystem::rename(execution.folder / (file + ".new"), execution.folder / file);
   }
 
+  SlurmExecutorTest() {
+    std::filesystem::create_directory(settings().folder);
+    executor = SlurmExecutor::make(settings(), kPace).value();
+  }
+
   testing::TemporaryFolder folder;
   ScriptedEngine engine{folder.path() / "bin"};
   Launch launch{.program = "/bin/true", .build_id = "ab12", .confined = false};
-  std::unique_ptr<SlurmExecutor> executor = SlurmExecutor::make(settings(), kPace).value();
+  std::unique_ptr<SlurmExecutor> executor;
 };
 
 TEST_F(SlurmExecutorTest, WaitingReasonIsReported) {
@@ -139,8 +146,10 @@ TEST_F(SlurmExecutorTest, SilentSubmissionIsRepeatedOnceSlurmAnswersAndDoesNotKn
   EXPECT_EQ(engine.calls("sbatch"), 1);
   engine.does("sbatch", "echo 5");
   engine.queue("");
-  EXPECT_TRUE(wait_for<WorkerWaits>(job));
-  EXPECT_EQ(engine.calls("sbatch"), 2);
+  EXPECT_TRUE(wait_until([&] {
+    (void)poll(job);
+    return engine.calls("sbatch") == 2;
+  }));
 }
 
 TEST_F(SlurmExecutorTest, HangingSubmissionEndsAndTheJobIsFoundByItsName) {
@@ -314,8 +323,9 @@ TEST_F(SlurmExecutorTest, SilentSlurmDoesNotMakeAJobGone) {
 }
 
 TEST_F(SlurmExecutorTest, JobThatWasNeverHandedOverIsGone) {
-  const Execution job = execution();
-  EXPECT_EQ(executor->adopt(job), Adoption::kGone);
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), kPace).value();
+  EXPECT_EQ(executor->adopt(execution()), Adoption::kGone);
 }
 
 TEST_F(SlurmExecutorTest, FolderThatIsNotMountedIsNoAnswer) {
@@ -329,6 +339,148 @@ TEST_F(SlurmExecutorTest, FoldersOfEndedExecutionsAreDeleted) {
   executor->keep_only({kept});
   EXPECT_TRUE(std::filesystem::exists(kept.folder));
   EXPECT_FALSE(std::filesystem::exists(other.folder));
+}
+
+TEST_F(SlurmExecutorTest, SubmissionThatFailsForAWhileIsRepeatedWithSlurmsWords) {
+  engine.queue("");
+  for (const char* words :
+       {"Batch job submission failed: Unable to contact slurm controller (connect failure)",
+        "Batch job submission failed: Connection reset by peer",
+        "Batch job submission failed: Transport endpoint is not connected",
+        "Batch job submission failed: Job violates accounting/QOS policy (job submit limit)"}) {
+    engine.does("sbatch", std::string("echo 'sbatch: error: ") + words + "' >&2; exit 1");
+    const Execution job = execution();
+    ASSERT_TRUE(executor->start(job, launch)) << words;
+    const auto waits = wait_for<WorkerWaits>(job);
+    ASSERT_TRUE(waits) << words;
+    EXPECT_NE(waits->reason.find(words), std::string::npos) << waits->reason;
+  }
+}
+
+TEST_F(SlurmExecutorTest, JobThatIsAcceptedButNeverSeenFailsInsteadOfFloodingSlurm) {
+  engine.does("sbatch", "echo all is well");
+  engine.queue("");
+  const auto end = wait_for<WorkerEnds>(started());
+  ASSERT_TRUE(end);
+  EXPECT_NE(end->errors.find("squeue does not show"), std::string::npos) << end->errors;
+  EXPECT_LE(engine.calls("sbatch"), 6);
+}
+
+// The pool's thread makes all calls, and has other jobs to look after.
+TEST_F(SlurmExecutorTest, HangingProgramsDelayManyJobsOnlyOnce) {
+  auto pace = kPace;
+  pace.pause = std::chrono::hours(1);
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), pace).value();
+  engine.does("sbatch", "exec sleep 60");
+  engine.does("scancel", "exec sleep 60");
+  engine.queue("");
+  std::vector<Execution> jobs;
+  for (std::int64_t job = 1; job <= 16; ++job) jobs.push_back(started(job));
+  (void)wait_until([&] {
+    (void)executor->poll(jobs);
+    return engine.calls("squeue") > 5;
+  });
+  for (const Execution& job : jobs) EXPECT_FALSE(executor->cancel(job, CancelHow::kGently));
+  EXPECT_EQ(engine.calls("sbatch") + engine.calls("scancel"), 1);
+}
+
+TEST_F(SlurmExecutorTest, QueryThatOutlastsTheLastJobIsTakenUp) {
+  engine.does("squeue", "sleep 0.2");
+  const Execution job = started();
+  ASSERT_TRUE(wait_until([&] {
+    (void)poll(job);
+    return !executor->descriptors().empty();
+  }));
+  EXPECT_TRUE(wait_until([&] {
+    (void)executor->poll({});
+    return executor->descriptors().empty();
+  })) << "otherwise the caller's poll() would return at once, again and again";
+}
+
+TEST_F(SlurmExecutorTest, CrashNeedsNoWordOfSlurm) {
+  engine.does("squeue", "exit 1");
+  const Execution job = started();
+  leave(job, "exit", std::to_string(128 + SIGSEGV) + "\n");
+  const auto end = wait_for<WorkerEnds>(job);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->wait_status, SIGSEGV);
+}
+
+TEST_F(SlurmExecutorTest, WorkerThatSlurmTookBackIsGoneAndRunsAgain) {
+  for (const char* state : {"PREEMPTED", "NODE_FAIL"}) {
+    const Execution job = started();
+    engine.queue(std::string("1|") + state + "|None|hydroprint-lab-7-1\\n");
+    leave(job, "exit", "130\n");
+    EXPECT_TRUE(wait_for<WorkerIsGone>(job)) << state;
+    std::filesystem::remove(job.folder / "exit");
+  }
+}
+
+// What a worker left behind on a node may write for ever.
+TEST_F(SlurmExecutorTest, ProgressDoesNotKeepACancelledJobAlive) {
+  const Execution job = started();
+  std::filesystem::create_directory(job.folder / "begun");
+  EXPECT_TRUE(executor->cancel(job, CancelHow::kGently));
+  engine.queue("1|CANCELLED|None|hydroprint-lab-7-1\\n");
+  std::ofstream progress(progress_file({job.folder}));
+  EXPECT_TRUE(wait_until([&] {
+    progress << "{}\n" << std::flush;
+    const auto seen = poll(job);
+    return seen && std::holds_alternative<WorkerIsGone>(*seen);
+  }));
+}
+
+TEST_F(SlurmExecutorTest, SharedFolderThatIsNotMountedMakesNoJobGone) {
+  const Execution job = started();
+  executor.reset();
+  std::filesystem::rename(folder.path() / "shared", folder.path() / "aside");
+  EXPECT_FALSE(SlurmExecutor::make(settings(), kPace)) << "the folder does not exist";
+  std::filesystem::create_directory(folder.path() / "shared");  // the place where it is mounted
+  executor = SlurmExecutor::make(settings(), kPace).value();
+  engine.queue("");
+  const auto calls = engine.calls("squeue");
+  EXPECT_TRUE(wait_until([&] {
+    EXPECT_EQ(executor->adopt(job), Adoption::kNoAnswer);
+    (void)executor->poll({});
+    return engine.calls("squeue") > calls + 20;
+  }));
+}
+
+TEST_F(SlurmExecutorTest, JobCancelledWhileNoDaemonRanIsGoneAtOnce) {
+  const Execution job = started();
+  executor.reset();
+  auto pace = kPace;
+  pace.exit_file = std::chrono::hours(1);
+  executor = SlurmExecutor::make(settings(), pace).value();
+  engine.queue("1|CANCELLED|Resources|hydroprint-lab-7-1\\n");
+  EXPECT_TRUE(wait_until([&] { return executor->adopt(job) == Adoption::kGone; }));
+}
+
+TEST_F(SlurmExecutorTest, UnknownJobsOfTheInstallationAreEnded) {
+  const Execution kept = started(7);
+  engine.queue(
+      "1|RUNNING|None|hydroprint-lab-7-1\\n2|PENDING|None|hydroprint-lab-8-1\\n"
+      "3|RUNNING|None|hydroprint-lab2-9-1\\n4|RUNNING|None|other\\n");
+  executor->keep_only({kept});
+  (void)started(10);
+  EXPECT_TRUE(wait_until([&] {
+    (void)executor->poll({kept});
+    return engine.calls("scancel") >= 1;
+  }));
+  EXPECT_FALSE(is_unknown(kept)) << "two more queries";
+  EXPECT_EQ(engine.calls("scancel"), 1);
+  EXPECT_NE(content(folder.path() / "bin/scancel.calls").find("--name=hydroprint-lab-8-1\n"),
+            std::string::npos);
+}
+
+TEST_F(SlurmExecutorTest, IsNotReadyOnceAnotherDaemonHasTakenTheFolder) {
+  EXPECT_TRUE(executor->ready());
+  std::ofstream(folder.path() / "shared/lab/lock") << "elsewhere 1 boot:1 token\n";
+  (void)executor->poll({});  // the first heartbeat
+  const Status lost = executor->ready();
+  ASSERT_FALSE(lost);
+  EXPECT_NE(lost.error().message.find("elsewhere"), std::string::npos) << lost.error().message;
 }
 
 TEST_F(SlurmExecutorTest, SecondDaemonOfAnInstallationIsRefused) {
