@@ -207,6 +207,17 @@ TEST_F(ClusterTest, FailuresHaveTheWordsOfTheWorker) {
   EXPECT_EQ(client->job(crashes).error().reason(), "WORKER_KILLED");
 }
 
+// Slurm's shortest limit is a minute.
+TEST_F(ClusterTest, LimitOfSlurmIsTheTimeLimitOfTheJob) {
+  auto with = options();
+  with.workers += "options = \"--time=1\"\n";
+  start(with);
+  const std::string job = client->simulate("sleep 110").name();
+  ASSERT_EQ(end_of(job), v1::Job::FAILED);
+  EXPECT_EQ(client->job(job).error().reason(), "TIME_LIMIT") << client->job(job).error().message();
+  EXPECT_EQ(starts(job), 1);
+}
+
 TEST_F(ClusterTest, WorkerOfANodeThatDiffersIsRefusedWithBothIds) {
   const auto worker = folder.path() / "worker";
   std::ofstream(worker) << "#!/bin/sh\nif [ -n \"$SLURM_JOB_ID\" ]; then id=bb; else id=aa; fi\n"
