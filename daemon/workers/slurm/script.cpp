@@ -24,7 +24,7 @@ finish() {{
 }}
 
 node=$(uname -n)
-build_id=$({worker} --version --json 2>/dev/null | sed -n 's/.*"build_id" *: *"\([0-9a-f]*\)".*/\1/p')
+build_id=$({print_build_id})
 leave begin "$node ${{SLURM_JOB_ID:-?}} $build_id"
 [ -z "$ended" ] || finish 143
 if [ "$build_id" != {build_id} ]; then
@@ -37,24 +37,34 @@ fi
 finish $?
 )sh";
 
-// Returns the text as one word of a shell.
+}  // namespace
+
 std::string quoted(const std::string& text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
 }
 
-}  // namespace
+std::string print_build_id(const std::filesystem::path& worker) {
+  return quoted(worker) +
+         R"sh( --version --json 2>/dev/null | sed -n 's/.*"build_id" *: *"\([0-9a-f]*\)".*/\1/p')sh";
+}
+
+std::string option_lines(const std::vector<std::string>& options) {
+  std::string out;
+  for (const std::string& option : options) out += "#SBATCH " + option + "\n";
+  return out;
+}
 
 std::string batch_script(const ScriptPlan& plan) {
   std::vector<std::string> words;
   for (const std::string& word : plan.command) words.push_back(quoted(word));
-  std::string options;
-  for (const std::string& option : plan.options) options += "#SBATCH " + option + "\n";
-  return fmt::format(
-      kScript, fmt::arg("options", options), fmt::arg("folder", quoted(plan.folder)),
-      fmt::arg("worker", quoted(plan.worker)), fmt::arg("build_id", quoted(plan.build_id)),
-      fmt::arg("command", fmt::join(words, " ")), fmt::arg("inputs", quoted(plan.inputs)));
+  return fmt::format(kScript, fmt::arg("options", option_lines(plan.options)),
+                     fmt::arg("folder", quoted(plan.folder)),
+                     fmt::arg("print_build_id", print_build_id(plan.worker)),
+                     fmt::arg("build_id", quoted(plan.build_id)),
+                     fmt::arg("command", fmt::join(words, " ")),
+                     fmt::arg("inputs", quoted(plan.inputs)));
 }
 
 }  // namespace hydroprint::daemon::slurm

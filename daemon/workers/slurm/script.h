@@ -6,6 +6,15 @@
 
 namespace hydroprint::daemon::slurm {
 
+/// Returns the text as one word of a shell.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+/// Returns the shell command that prints the build id of a worker; nothing if it has none.
+[[nodiscard]] std::string print_build_id(const std::filesystem::path& worker);
+
+/// Returns the lines of a script that pass options to sbatch.
+[[nodiscard]] std::string option_lines(const std::vector<std::string>& options);
+
 /// What the script of an execution does.
 struct ScriptPlan {
   std::vector<std::string> options;  ///< of sbatch

@@ -16,8 +16,10 @@ namespace {
 constexpr std::chrono::milliseconds kCallPatience{1000};
 constexpr std::int64_t kMiB = 1 << 20;
 
-std::vector<std::string> options_of(const Settings& settings, const Execution& execution,
-                                    const Launch& launch) {
+}  // namespace
+
+std::vector<std::string> sbatch_options(const Settings& settings, const Execution& execution,
+                                        const Launch& launch) {
   std::vector<std::string> out{"--job-name=" + job_name(execution.folder),
                                "--no-requeue",
                                "--export=ALL",
@@ -37,6 +39,8 @@ std::vector<std::string> options_of(const Settings& settings, const Execution& e
   out.insert(out.end(), settings.options.begin(), settings.options.end());
   return out;
 }
+
+namespace {
 
 // Returns whether sbatch will say the same again. Everything else passes: a controller that is
 // down, busy or out of job slots.
@@ -62,7 +66,7 @@ Status write_script(const Settings& settings, const Execution& execution, const 
   const RunFolder folder{execution.folder};
   Launch with_progress = launch;
   with_progress.arguments.push_back("--progress-file=" + progress_file(folder).string());
-  const ScriptPlan plan{options_of(settings, execution, launch),
+  const ScriptPlan plan{sbatch_options(settings, execution, launch),
                         folder.root,
                         launch.program,
                         launch.build_id,

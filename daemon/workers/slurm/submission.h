@@ -2,11 +2,17 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "daemon/workers/slurm/settings.h"
 #include "daemon/workers/worker_executor.h"
 
 namespace hydroprint::daemon::slurm {
+
+/// Returns the options of sbatch for the job of an execution.
+[[nodiscard]] std::vector<std::string> sbatch_options(const Settings& settings,
+                                                      const Execution& execution,
+                                                      const Launch& launch);
 
 /// Writes the script of an execution to its folder; see batch_script().
 [[nodiscard]] Status write_script(const Settings& settings, const Execution& execution,
