@@ -161,8 +161,15 @@ int run(const Config& config, const std::string& first_admin) {
 }
 
 int run_command(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "admin")
-    return admin::run_command(argc - 1, argv + 1);
+  if (argc > 1 && std::string_view(argv[1]) == "admin") {
+    return admin::run_command(argc - 1, argv + 1,
+                              [argv](const std::string& config_file, const std::string& state_dir) {
+                                Options options;
+                                options.config_file = config_file;
+                                options.state_dir = state_dir;
+                                return configure(options, argv[0]);
+                              });
+  }
   Options options;
   CLI::App app(
       "Keeps Hydroprint's job queue and runs its workers. Serves gRPC and HTTP on loopback "

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "daemon/admin/backup.h"
+#include "daemon/admin/check.h"
 #include "daemon/admin/offline_accounts.h"
 #include "daemon/admin/restore.h"
 #include "sim/base/number_text.h"
@@ -16,7 +17,7 @@ namespace hydroprint::admin {
 namespace {
 
 struct Options {
-  std::string state_dir, file, user;
+  std::string state_dir, config_file, file, user;
   bool replaces = false, from_stdin = false;
 };
 
@@ -69,6 +70,11 @@ Status run_link(const Options& options) {
   return {};
 }
 
+int run_check(const Options& options, const Configure& configure) {
+  const std::string file = configuration_file(options.config_file);
+  return static_cast<int>(check(file, configure(file, options.state_dir)));
+}
+
 CLI::App* add(CLI::App& app, const char* name, const char* help, Options& options) {
   CLI::App* const verb = app.add_subcommand(name, help);
   verb->add_option("--state-dir", options.state_dir, "The daemon's state folder")->type_name("DIR");
@@ -77,7 +83,7 @@ CLI::App* add(CLI::App& app, const char* name, const char* help, Options& option
 
 }  // namespace
 
-int run_command(int argc, char** argv) {
+int run_command(int argc, char** argv, const Configure& configure) {
   ::umask(077);
   std::signal(SIGPIPE, SIG_IGN);
   Options options;
@@ -95,11 +101,15 @@ int run_command(int argc, char** argv) {
   CLI::App* const to_link =
       add(app, "sign-in-link", "Create a link that signs the user in once", options);
   to_link->add_option("user", options.user)->required();
+  CLI::App* const to_check = add(app, "check", "Check whether the daemon can run workers", options);
+  to_check->add_option("--config", options.config_file, "The daemon's configuration")
+      ->type_name("FILE");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
   }
+  if (to_check->parsed()) return run_check(options, configure);
   const Status done = to_backup->parsed()    ? run_backup(options)
                       : to_restore->parsed() ? run_restore(options)
                       : to_reset->parsed()   ? run_reset(options)

@@ -286,6 +286,36 @@ TEST_F(AdminCli, AnArchiveWithPathsOutsideTheFolderIsRefused) {
   EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 3);
 }
 
+TEST_F(AdminCli, ACheckNeedsNoLockAndIsOkWhereTheDaemonRuns) {
+  const Outcome ended = admin({"check", "--config", daemon_.config()});
+  EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
+  EXPECT_EQ(ended.out.find("FAULT"), std::string::npos) << ended.out;
+  for (const char* what : {"configuration", "worker", "confinement", "state folder"}) {
+    EXPECT_NE(ended.out.find(std::string("ok    ") + what + ": "), std::string::npos) << ended.out;
+  }
+}
+
+TEST_F(AdminCli, ACheckNamesEachFaultWithItsRemedy) {
+  const auto file = folder_.path() / "check.toml";
+  const auto expect_fault = [&](const std::string& lines, const std::string& fault) {
+    std::ofstream(file) << lines;
+    const Outcome ended =
+        client({"admin", "check", "--config", file, "--state-dir", elsewhere()}, {"PATH=/nowhere"});
+    EXPECT_EQ(ended.status, 4) << lines;
+    EXPECT_NE(ended.out.find("FAULT " + fault), std::string::npos) << ended.out;
+  };
+  expect_fault("[workers]\ncount = -1\n", "configuration: " + file.string() + ":2: ");
+  expect_fault("[workers]\nprogram = \"/no/worker\"\n", "worker: /no/worker: ");
+  expect_fault("", "state folder: " + elsewhere().string() + ": does not exist");
+  const std::string slurm =
+      "[workers]\nexecutor = \"slurm\"\n[workers.slurm]\nfolder = \"/no/folder\"\n";
+  expect_fault(slurm, "shared folder: /no/folder: ");
+  expect_fault(slurm,
+               "Slurm programs: sbatch, squeue, scancel, sinfo: not in PATH; install the Debian "
+               "package slurm-client");
+  EXPECT_FALSE(std::filesystem::exists(elsewhere()));
+}
+
 TEST(Archive, NamesAndContentsAreRestored) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.tar";

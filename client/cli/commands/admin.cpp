@@ -18,7 +18,7 @@ namespace hydroprint::cli {
 namespace {
 
 struct AdminOptions {
-  std::string state_dir, file, user;
+  std::string state_dir, config_file, file, user;
   bool from_stdin = false;  // no effect: input that is not a terminal is read in any case
   bool replace = false;
 };
@@ -90,6 +90,14 @@ Status reset_password(const AdminOptions& options) {
   return become(arguments);
 }
 
+Status check(const AdminOptions& options) {
+  std::vector<std::string> arguments = arguments_of("check", options);
+  if (!options.config_file.empty()) {
+    arguments.insert(arguments.end(), {"--config", options.config_file});
+  }
+  return become(arguments);
+}
+
 CLI::App* add_verb(CLI::App& admin, const char* name, const char* help, AdminOptions& options) {
   CLI::App* const verb = admin.add_subcommand(name, help);
   verb->add_option("--state-dir", options.state_dir,
@@ -103,7 +111,7 @@ CLI::App* add_verb(CLI::App& admin, const char* name, const char* help, AdminOpt
 void add_admin(CLI::App& app, Program& program) {
   auto options = std::make_shared<AdminOptions>();
   CLI::App* admin = app.add_subcommand(
-      "admin", "Back up, restore, reset passwords; on the daemon's machine, as its user");
+      "admin", "Back up, restore, reset passwords, check; on the daemon's machine, as its user");
   admin->require_subcommand(1);
 
   CLI::App* backup =
@@ -135,6 +143,21 @@ void add_admin(CLI::App& app, Program& program) {
                *options);
   to_link->add_option("user", options->user, "User name")->type_name("NAME")->required();
   program.on(*to_link, [options] { return link(*options); });
+
+  CLI::App* to_check = add_verb(
+      *admin, "check",
+      "Check whether the daemon can run workers, on a cluster too; the daemon may be running",
+      *options);
+  to_check
+      ->add_option("--config", options->config_file,
+                   "The daemon's configuration; default: /etc/hydroprint/hydroprintd.toml, or "
+                   "built-in settings if it does not exist")
+      ->type_name("FILE");
+  to_check->footer(
+      "Prints a line for each thing: ok, note or FAULT. The exit status is 4 if there is a "
+      "fault.\nExample:\n  sudo -u hydroprint hydroprint admin check --state-dir "
+      "/var/lib/hydroprint");
+  program.on(*to_check, [options] { return check(*options); });
 }
 
 }  // namespace hydroprint::cli
