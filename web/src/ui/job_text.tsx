@@ -52,13 +52,23 @@ export const dipText = (immersion: number, immersions: number): string =>
 export const withoutDip = (instruction: string): string =>
   instruction.replace(/^dip \d+ of \d+: /, '');
 
-export const State = ({ state }: { state: JobState }) => (
-  <span class={`state ${state.toLowerCase()}`}>{kStates[state] ?? state.toLowerCase()}</span>
+/** Why a running job still waits, in the words of a cluster; undefined if it does not. */
+export const clusterReason = (job: Pick<Job, 'state' | 'phase'>): string | undefined =>
+  job.state === 'RUNNING' ? job.phase?.match(/^waiting: (.*)$/)?.[1] : undefined;
+
+export const State = ({ state, phase }: { state: JobState; phase?: string }) => (
+  <span class={`state ${state.toLowerCase()}`}>
+    {clusterReason({ state, phase: phase ?? '' }) === undefined
+      ? (kStates[state] ?? state.toLowerCase())
+      : 'waiting'}
+  </span>
 );
 
 /** Progress and remaining time of a job. */
 export function JobProgress({ job }: { job: Job }) {
   if (job.state === 'QUEUED') return <span class="quiet">waiting in the queue</span>;
+  const reason = clusterReason(job);
+  if (reason !== undefined) return <span class="quiet">in the cluster’s queue: {reason}</span>;
   const left = secondsUntil(job.etaTime);
   return (
     <span class="how-far">

@@ -45,7 +45,7 @@ function Head({ job }: { job: Job }) {
   return (
     <header>
       <h1>
-        {job.displayName || job.name} <State state={job.state} />
+        {job.displayName || job.name} <State state={job.state} phase={job.phase} />
       </h1>
       <p class="quiet">
         Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, created{' '}
