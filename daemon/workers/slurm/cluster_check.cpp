@@ -140,7 +140,7 @@ void check_cluster(const Config& config, const std::string& build_id, const Chec
   if (!programs || caller.is_cancelled()) return;
   const auto nodes = list_nodes(settings);
   caller.add(check_line("Slurm controller", nodes.map([](const auto& list) {
-    return fmt::format("answers; {} nodes", list.size());
+    return fmt::format("answers; {} {}", list.size(), list.size() == 1 ? "node" : "nodes");
   })));
   if (!nodes || caller.is_cancelled()) return;
   const auto submission = check_submission(config, settings);
