@@ -23,7 +23,8 @@ constexpr std::chrono::seconds kNodePatience{60};
 class ScratchFolder {
  public:
   static Result<ScratchFolder> make(const std::filesystem::path& parent) {
-    std::string path = parent / "check-XXXXXX";
+    // Jobs are named after the folder. With a point, it is not the name of an installation.
+    std::string path = parent / "check.XXXXXX";
     if (::mkdtemp(path.data()) == nullptr) {
       return system_failure(parent, "no folder can be created in it");
     }
