@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kReadAtOnce = 1 << 20;
 
-// Opens the folder first: a network file system then looks anew for files that did not exist.
+// Opens the folder first: a network file system then looks again for files that did not exist.
 UniqueFd open_folder(const std::filesystem::path& path) {
   return UniqueFd(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
 }

@@ -100,7 +100,7 @@ Observations SlurmExecutor::poll(const std::vector<Execution>& executions) {
   for (const Execution& execution : executions) jobs.insert(execution.job);
   std::erase_if(watches_, [&](const auto& entry) { return !jobs.contains(entry.first); });
   query_.step(!jobs.empty() || known_names_);
-  end_strangers();
+  end_unknown();
   Observations out;
   for (const Execution& execution : executions) {
     if (auto seen = observe(execution, watches_[execution.job])) {
@@ -158,7 +158,7 @@ void SlurmExecutor::keep_only(const std::vector<Execution>& executions) {
 }
 
 // Ends jobs that Slurm kept from executions which this daemon does not know, as after a restore.
-void SlurmExecutor::end_strangers() {
+void SlurmExecutor::end_unknown() {
   if (!known_names_ || !query_.answer() || is_paused()) return;
   const std::string own = job_name(installation_folder(settings_) / "");
   for (const auto& [name, word] : query_.answer()->queue) {

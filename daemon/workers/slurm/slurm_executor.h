@@ -77,7 +77,7 @@ class SlurmExecutor final : public WorkerExecutor {
   void beat();
   [[nodiscard]] bool is_paused() const { return std::chrono::steady_clock::now() < paused_until_; }
   void pause() { paused_until_ = std::chrono::steady_clock::now() + pace_.pause; }
-  void end_strangers();
+  void end_unknown();
   [[nodiscard]] const QueueEntry* word_on(const Execution& execution) const;
   [[nodiscard]] std::optional<Observation> observe(const Execution& execution, Watch& watch);
   [[nodiscard]] std::optional<Observation> observe_end(const Execution& execution, Watch& watch,
@@ -98,7 +98,7 @@ class SlurmExecutor final : public WorkerExecutor {
   QueueQuery query_;
   std::map<std::int64_t, Watch> watches_;             // by job
   std::set<std::int64_t> offered_;                    // jobs that are offered for adoption
-  std::optional<std::set<std::string>> known_names_;  // until strangers are ended
+  std::optional<std::set<std::string>> known_names_;  // until unknown jobs are ended
 };
 
 }  // namespace hydroprint::daemon::slurm
