@@ -86,7 +86,12 @@ void ProgressFile::append() {
     const std::lock_guard lock(mutex_);
     lines.swap(pending_);
   }
-  if (lines.empty()) return;
+  if (lines.empty()) {
+    if (last_.empty() || ++idle_calls_ < kRepeatAfter) return;
+    lines = last_;
+  }
+  idle_calls_ = 0;
+  last_ = lines.substr(lines.rfind('\n', lines.size() - 2) + 1);
   // Opened for each append, because NFS sends the bytes to its server when the file is closed.
   const int fd = ::open(path_.c_str(), kAppend);
   if (fd < 0) return;

@@ -29,6 +29,11 @@ bool waits_for_resources(const v1::Job& job) {
   return job.state() == v1::Job::RUNNING && job.phase() == "waiting: Resources";
 }
 
+std::ptrdiff_t entries_of(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator entries(folder);
+  return std::distance(begin(entries), end(entries));
+}
+
 class ClusterTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -107,6 +112,7 @@ class ClusterFilms : public ClusterTest {
       Client& person = *people[i % people.size()];
       auto request = simulate_request(person.upload(ball_obj(20 + 0.1 * static_cast<double>(i))));
       request.mutable_job()->mutable_simulate()->set_dpi(50);
+      request.mutable_job()->mutable_simulate()->set_film("60x60");
       v1::Job job;
       throw_unless_ok(person.create(request, job), "CreateJob");
       jobs.push_back(job.name());
@@ -127,9 +133,8 @@ TEST_F(ClusterFilms, EqualThoseOfTheLocalPoolBitForBit) {
   auto with = options();
   with.worker = "";
   const auto remote = films(with, count);
-  for (const auto& entry : std::filesystem::directory_iterator(shared() / "lab")) {
-    EXPECT_EQ(entry.path().filename(), "lock") << "a folder of an ended job is left";
-  }
+  EXPECT_TRUE(wait_until([&] { return entries_of(shared() / "lab") == 1; }))
+      << "only the lock is left, and no folder of an ended job";
   const std::string jobs =
       Cluster::ask({"/usr/bin/squeue", "--states=all", "--noheader", "--format=%j %T"});
   for (int i = 1; i <= count; ++i) {
@@ -151,7 +156,7 @@ TEST_F(ClusterTest, FolderMayLieOnAnotherFileSystem) {
   const std::string job = client->simulate("").name();
   ASSERT_EQ(end_of(job), v1::Job::SUCCEEDED) << client->job(job).error().message();
   EXPECT_EQ(client->download(job + "/artifacts/film.png"), "film of m.obj");
-  EXPECT_TRUE(std::filesystem::is_empty(daemon->state() / "runs"));
+  EXPECT_TRUE(wait_until([&] { return entries_of(daemon->state() / "runs") == 0; }));
 }
 
 TEST_F(ClusterTest, CancelEndsAWorkerWithinOneSecondAndAWaitingJobWithinTwo) {

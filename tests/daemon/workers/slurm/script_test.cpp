@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/wait.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "daemon/platform/durable_file.h"
@@ -121,6 +124,23 @@ TEST_F(SlurmScript, TerminatedBeforeItsWorkItDoesNotWork) {
   process.wait();
   EXPECT_EQ(wait_status(run), SIGTERM);
   EXPECT_FALSE(std::filesystem::exists(run.root / "ran"));
+}
+
+TEST_F(SlurmScript, FullFolderIsReportedAsSuch) {
+  const auto command = command_line("head -c 1000000 /dev/zero > ../work/out; exit 4");
+  const std::string script = content(script_file(run));
+  if (::mount("none", run.root.c_str(), "tmpfs", 0, "size=64k") != 0) {
+    GTEST_SKIP() << "cannot mount a small disk: " << std::strerror(errno) << " (needs root)";
+  }
+  std::filesystem::create_directories(run.inputs());
+  std::filesystem::create_directories(run.work());
+  std::ofstream(folder.path() / "script") << script;
+  (void)testing::run({"/bin/sh", folder.path() / "script"});
+  const auto failure =
+      judge(wait_status(run).value_or(0), StopReason::kNothing, errors_of(run), answer_of(run));
+  ::umount2(run.root.c_str(), MNT_DETACH);
+  ASSERT_TRUE(failure);
+  EXPECT_EQ(failure->error.reason, "DISK_FULL") << failure->error.message;
 }
 
 TEST_F(SlurmScript, OptionsComeBeforeTheFirstCommand) {

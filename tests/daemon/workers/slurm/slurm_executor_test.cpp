@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/mount.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
 #include "daemon/platform/durable_file.h"
@@ -481,6 +484,18 @@ TEST_F(SlurmExecutorTest, IsNotReadyOnceAnotherDaemonHasTakenTheFolder) {
   const Status lost = executor->ready();
   ASSERT_FALSE(lost);
   EXPECT_NE(lost.error().message.find("elsewhere"), std::string::npos) << lost.error().message;
+}
+
+TEST_F(SlurmExecutorTest, IsNotReadyWhileTheSharedFolderIsFull) {
+  const auto lab = folder.path() / "shared/lab";
+  if (::mount("none", lab.c_str(), "tmpfs", 0, "size=64k") != 0) {
+    GTEST_SKIP() << "cannot mount a small disk: " << std::strerror(errno) << " (needs root)";
+  }
+  const Status full = executor->ready();
+  ::umount2(lab.c_str(), MNT_DETACH);
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().reason, "DISK_FULL") << full.error().message;
+  EXPECT_TRUE(executor->ready());
 }
 
 TEST_F(SlurmExecutorTest, SecondDaemonOfAnInstallationIsRefused) {

@@ -68,6 +68,21 @@ TEST_F(ProgressFileTest, AnyNumberOfReportsIsOneAppendOfTheLinesOfThePipe) {
   EXPECT_EQ(seen, lines_of_pipe(folder.path() / "pipe", reports));
 }
 
+TEST_F(ProgressFileTest, RepeatsTheLastLineWhileNothingIsReported) {
+  for (int i = 0; i < 2 * ProgressFile::kRepeatAfter; ++i) file.append();
+  EXPECT_EQ(content(), "") << "nothing to repeat";
+  file.write(at("velocity", 0.25));
+  file.write(at("velocity", 0.5));
+  file.append();
+  const std::string lines = content(), last = lines.substr(lines.find('\n') + 1);
+  for (int i = 1; i < ProgressFile::kRepeatAfter; ++i) file.append();
+  EXPECT_EQ(content(), lines);
+  file.append();
+  EXPECT_EQ(content(), lines + last);
+  for (int i = 0; i < ProgressFile::kRepeatAfter; ++i) file.append();
+  EXPECT_EQ(content(), lines + last + last);
+}
+
 TEST_F(ProgressFileTest, KeepsWhatTheFileContained) {
   folder.write("progress", "earlier\n");
   file.write(at("velocity", 0.5));
