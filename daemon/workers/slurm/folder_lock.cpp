@@ -44,7 +44,7 @@ std::string place() {
 }
 
 // Returns when a process was started, which distinguishes it from later ones with its id. Empty if
-// there is no such process.
+// it does not exist.
 std::string start_of(pid_t pid) {
   std::string stat = text_of(fmt::format("/proc/{}/stat", pid));
   const std::size_t name_end = stat.rfind(')');  // the name may contain spaces

@@ -17,7 +17,7 @@ enum class Phase : std::uint8_t { kWaits, kRuns, kEnded };
 struct QueueEntry {
   Phase phase = Phase::kRuns;
   std::string state;   ///< Slurm's name of the state, for example "TIMEOUT"
-  std::string reason;  ///< Slurm's reason, for example "Resources"; "None" if there is no reason
+  std::string reason;  ///< Slurm's reason, for example "Resources"; "None" without one
 };
 
 /// Slurm's word on jobs, by their names.

@@ -129,10 +129,11 @@ Adoption SlurmExecutor::adopt(const Execution& execution) {
   if (is_news) watch.used = SteadyClock::now();
   std::error_code ignored;
   const bool has_script = std::filesystem::exists(script_file(folder), ignored);
+  const bool is_mounted = std::filesystem::exists(folder.root.parent_path(), ignored);
   Adoption out = Adoption::kNoAnswer;
   if (wait_status(folder) || has_begun(folder) || !is_ended(word)) {
     out = Adoption::kAdopted;
-  } else if (is_new_folder_) {
+  } else if (is_new_folder_ || !is_mounted) {
     return Adoption::kNoAnswer;  // the shared file system may not be mounted
   } else if (!has_script && execution.handle.empty()) {
     out = Adoption::kGone;  // it was not handed over
@@ -222,7 +223,7 @@ std::optional<Observation> SlurmExecutor::observe_end(const Execution& execution
   return end;
 }
 
-// Judges a new answer of Slurm; there is no exit file.
+// Judges a new answer of Slurm about a worker that has left no exit file.
 std::optional<Observation> SlurmExecutor::judge_word(const Execution& execution, Watch& watch,
                                                      const QueueEntry* word) {
   const bool begun = has_begun({execution.folder});

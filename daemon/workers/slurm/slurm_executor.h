@@ -61,7 +61,7 @@ class SlurmExecutor final : public WorkerExecutor {
  private:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// What is known of one execution beside its files.
+  /// What the executor remembers of one execution. The rest is in its files.
   struct Watch {
     ProgressReader progress;
     Time used;                         // answers that were asked for until then are not news

@@ -159,7 +159,8 @@ TEST_F(ClusterTest, FolderMayLieOnAnotherFileSystem) {
   EXPECT_TRUE(wait_until([&] { return entries_of(daemon->state() / "runs") == 0; }));
 }
 
-TEST_F(ClusterTest, CancelEndsAWorkerWithinOneSecondAndAWaitingJobWithinTwo) {
+// Prints how long it takes: 1 s and 2 s are the goals on an idle machine.
+TEST_F(ClusterTest, CancelEndsARunningWorkerAndAWaitingJob) {
   start(options());
   const auto jobs = simulate(5, "sleep 60");  // on two nodes with two cores
   for (int i = 0; i < 4; ++i) client->wait(jobs[static_cast<std::size_t>(i)], runs);

@@ -332,6 +332,8 @@ TEST_F(SlurmExecutorTest, JobThatWasNeverHandedOverIsGone) {
 }
 
 TEST_F(SlurmExecutorTest, FolderThatIsNotMountedIsNoAnswer) {
+  executor.reset();
+  executor = SlurmExecutor::make(settings(), kPace).value();  // its own folder is not new
   Execution job = execution();
   job.folder = folder.path() / "not mounted" / "lab" / "7-1";
   EXPECT_EQ(executor->adopt(job), Adoption::kNoAnswer);
