@@ -6,6 +6,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <vector>
 
@@ -95,15 +96,35 @@ void discard(const std::filesystem::path& path) {
   std::filesystem::remove_all(path, ignored);
 }
 
-Status link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (::link(from.c_str(), to.c_str()) == 0) return {};
-  if (errno == ENOENT || errno == EEXIST) return system_failure(from, "cannot be linked");
-  std::error_code error;
-  if (!std::filesystem::copy_file(from, to, error)) {
-    errno = error.value();
-    return system_failure(to, "cannot be written");
+Status copy_bytes(const UniqueFd& from, std::int64_t bytes, const std::filesystem::path& to,
+                  const std::stop_token& stop) {
+  constexpr std::int64_t kBlock = 1 << 20;
+  HP_ASSIGN_OR_RETURN(const UniqueFd target, open_file(to, O_WRONLY | O_CREAT | O_EXCL));
+  std::string block(kBlock, '\0');
+  for (std::int64_t done = 0; done < bytes;) {
+    if (stop.stop_requested()) return fail(Code::kCancelled, "cancelled");
+    const auto most = static_cast<std::size_t>(std::min(kBlock, bytes - done));
+    const ssize_t count = ::pread(from.get(), block.data(), most, done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return system_failure(to, "cannot be copied");
+    if (count == 0) {
+      return fail(Code::kInternal, to.string() + ": the original became shorter", "STORE_FAILED");
+    }
+    const std::string_view piece(block.data(), static_cast<std::size_t>(count));
+    HP_RETURN_IF_ERROR(write_at(target, to, piece, done));
+    done += count;
   }
   return {};
+}
+
+Status link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to,
+                    const std::stop_token& stop) {
+  if (::link(from.c_str(), to.c_str()) == 0) return {};
+  if (errno == ENOENT || errno == EEXIST) return system_failure(from, "cannot be linked");
+  HP_ASSIGN_OR_RETURN(const UniqueFd source, open_file(from, O_RDONLY));
+  struct stat info {};
+  if (::fstat(source.get(), &info) != 0) return system_failure(from, "cannot be read");
+  return copy_bytes(source, info.st_size, to, stop);
 }
 
 Result<std::string> sha256_of_file(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,9 +57,16 @@ class UniqueFd {
 /// deletes or sets aside files that remain.
 void discard(const std::filesystem::path& path);
 
+/// Copies the first `bytes` bytes of an open file to the new file `to`.
+/// @return kCancelled after a request to stop; the copy is then incomplete
+[[nodiscard]] Status copy_bytes(const UniqueFd& from, std::int64_t bytes,
+                                const std::filesystem::path& to, const std::stop_token& stop = {});
+
 /// Creates a hard link, or copies the file if the file system cannot link.
+/// @return as copy_bytes()
 [[nodiscard]] Status link_or_copy(const std::filesystem::path& from,
-                                  const std::filesystem::path& to);
+                                  const std::filesystem::path& to,
+                                  const std::stop_token& stop = {});
 
 /// Returns the SHA-256 of a file's content, as 64 lower-case hex digits.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);

@@ -25,23 +25,12 @@ tl::unexpected<Error> unusable(const std::string& what) {
 
 // Copies a regular file that has one name, up to its present size.
 Status copy_plain_file(const std::filesystem::path& from, const std::filesystem::path& to) {
-  constexpr std::size_t kBlock = 1 << 20;
   HP_ASSIGN_OR_RETURN(const UniqueFd source, open_file(from, O_RDONLY | O_NONBLOCK));
   struct stat info {};
   if (::fstat(source.get(), &info) != 0 || !S_ISREG(info.st_mode) || info.st_nlink != 1) {
     return unusable(kNotPlain);
   }
-  HP_ASSIGN_OR_RETURN(const UniqueFd target, open_file(to, O_WRONLY | O_CREAT | O_EXCL));
-  std::string block(kBlock, '\0');
-  for (std::int64_t done = 0; done < info.st_size;) {
-    const ssize_t count = ::pread(source.get(), block.data(), kBlock, done);
-    if (count < 0) return system_failure(from, "cannot be read");
-    if (count == 0) return unusable("a file that became shorter");
-    const std::string_view bytes(block.data(), static_cast<std::size_t>(count));
-    HP_RETURN_IF_ERROR(write_at(target, to, bytes, done));
-    done += count;
-  }
-  return {};
+  return copy_bytes(source, info.st_size, to);
 }
 
 }  // namespace
@@ -82,7 +71,7 @@ std::string media_type(const std::string& name) {
 }
 
 Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs,
-                      const std::filesystem::path& folder) {
+                      const std::filesystem::path& folder, const std::stop_token& stop) {
   discard(folder);
   HP_RETURN_IF_ERROR(make_folder(folder));
   for (const InputFile& input : inputs) {
@@ -93,7 +82,7 @@ Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs
                   "ASSET_MISSING");
     }
     HP_RETURN_IF_ERROR(make_folder((folder / input.name).parent_path()));
-    HP_RETURN_IF_ERROR(link_or_copy(asset, folder / input.name));
+    HP_RETURN_IF_ERROR(link_or_copy(asset, folder / input.name, stop));
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,11 @@ namespace hydroprint::daemon {
 
 /// Creates `folder` with a job's input files, each under its InputFile::name. Replaces an existing
 /// folder.
-/// @return kFailedPrecondition, ASSET_MISSING if a file is missing
+/// @return kFailedPrecondition, ASSET_MISSING if a file is missing; kCancelled after a request to
+///         stop, as of copy_bytes()
 [[nodiscard]] Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs,
-                                    const std::filesystem::path& folder);
+                                    const std::filesystem::path& folder,
+                                    const std::stop_token& stop = {});
 
 /// Publishes the files that a worker left in `from` as the artifacts of a job: hashes them, syncs
 /// them to disk, and makes them visible with a single rename of the folder to `to`.

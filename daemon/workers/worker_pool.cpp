@@ -62,12 +62,12 @@ struct WorkerPool::Impl {
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   std::vector<std::unique_ptr<WorkerRun>> runs;  // used only by the pool's thread
   bool has_resumed = false;
-  std::string unready;  // why no job can start; empty: they can
   std::vector<std::pair<std::int64_t, JobFailure>> unstarted;
   std::atomic<bool> stopping{false};
-  mutable std::mutex turns_mutex;  // protects the next two members
+  mutable std::mutex turns_mutex;  // protects the next three members
   FairScheduler turns;
   std::map<std::string, int> running;
+  std::string unready;  // why no job can start; empty: they can
   std::thread thread;
 };
 
@@ -133,6 +133,11 @@ void WorkerPool::wake() {
 
 int WorkerPool::slots() const { return impl_->executor.capacity(); }
 
+std::string WorkerPool::blocked_reason() const {
+  const std::lock_guard lock(impl_->turns_mutex);
+  return impl_->unready;
+}
+
 Result<std::vector<std::int64_t>> WorkerPool::order(std::size_t limit) const {
   HP_ASSIGN_OR_RETURN(const auto waiting, impl_->queue.waiting());
   const std::lock_guard lock(impl_->turns_mutex);
@@ -183,6 +188,7 @@ void WorkerPool::Impl::start_jobs() {
 bool WorkerPool::Impl::is_ready() {
   const Status ready = executor.ready();
   const std::string why = ready ? "" : ready.error().message;
+  const std::lock_guard lock(turns_mutex);
   if (why != unready) {
     log(ready ? LogLevel::kInfo : LogLevel::kError, ready ? "jobs_start_again" : "jobs_wait",
         {{"message", why}});
@@ -265,10 +271,6 @@ Status WorkerPool::Impl::start_worker(const Job& job) {
   HP_ASSIGN_OR_RETURN(launch.build_id, program.get());
   HP_ASSIGN_OR_RETURN(auto run, WorkerRun::start(job, execution, launch, context()));
   runs.push_back(std::move(run));
-  if (!executor.outlives_daemon()) return {};  // no later daemon needs the handle
-  if (const Status noted = store.note_handle(runs.back()->execution()); !noted) {
-    log(LogLevel::kError, "handle_lost", {{"job", job.id}, {"message", noted.error().message}});
-  }
   return {};
 }
 

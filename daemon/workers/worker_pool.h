@@ -45,6 +45,8 @@ class WorkerPool final : public JobExecutor {
   /// Returns the ids of queued jobs in the order in which they would start now; at most `limit`.
   [[nodiscard]] Result<std::vector<std::int64_t>> order(std::size_t limit) const;
   [[nodiscard]] int slots() const;
+  /// Returns why the executor takes no jobs now (WorkerExecutor::ready()); empty if it takes them.
+  [[nodiscard]] std::string blocked_reason() const;
 
  private:
   WorkerPool();

@@ -44,17 +44,17 @@ WorkerRun::WorkerRun(const Job& job, Execution execution, RunContext context)
       last_answer_(SteadyClock::now()) {}
 
 Result<std::unique_ptr<WorkerRun>> WorkerRun::start(const Job& job, Execution execution,
-                                                    const Launch& launch_plan, RunContext context) {
+                                                    const Launch& launch, RunContext context) {
+  std::unique_ptr<WorkerRun> run(new WorkerRun(job, std::move(execution), std::move(context)));
+  run->launch_ = launch;
+  if (!run->is_on_state_disk()) {
+    run->begin_copying();
+    return run;
+  }
   HP_RETURN_IF_ERROR(
-      lay_out_inputs(context.layout, job.definition.work.inputs, launch_plan.inputs));
-  HP_ASSIGN_OR_RETURN(execution.handle, context.executor.start(execution, launch_plan));
-  log(LogLevel::kInfo, "job_started",
-      {{"job", job.id},
-       {"owner", job.definition.owner},
-       {"verb", job.definition.work.verb},
-       {"executor", execution.executor},
-       {"handle", execution.handle}});
-  return std::unique_ptr<WorkerRun>(new WorkerRun(job, std::move(execution), std::move(context)));
+      lay_out_inputs(run->context_.layout, job.definition.work.inputs, launch.inputs));
+  HP_RETURN_IF_ERROR(run->start_worker());
+  return run;
 }
 
 std::unique_ptr<WorkerRun> WorkerRun::resume(const Job& job, const Execution& execution,
@@ -65,12 +65,18 @@ std::unique_ptr<WorkerRun> WorkerRun::resume(const Job& job, const Execution& ex
 }
 
 WorkerRun::~WorkerRun() {
+  copy_stop_.request_stop();
+  if (copying_.valid()) copying_.wait();
   if (publishing_.valid()) publishing_.wait();
   if (is_over_) discard(folder_.root);
 }
 
 bool WorkerRun::outlives_daemon() const {
   return !is_executors_own() || context_.executor.outlives_daemon();
+}
+
+bool WorkerRun::is_on_state_disk() const {
+  return folder_.root.parent_path() == context_.layout.runs();
 }
 
 bool WorkerRun::is_executors_own() const { return execution_.executor == context_.executor.name(); }
@@ -84,13 +90,64 @@ bool WorkerRun::step(const std::optional<Observation>& seen, JobStore& store, st
 
 void WorkerRun::watch(const std::optional<Observation>& seen, JobStore& store,
                       std::int64_t now_ms) {
-  if (phase_ == Phase::kOffered) {
+  if (phase_ == Phase::kCopying) {
+    await_inputs();
+  } else if (phase_ == Phase::kOffered) {
     offer_again();
   } else if (seen) {
     judge_observation(*seen, now_ms);
   }
+  if (phase_ == Phase::kOpen && !is_noted_) note_handle(store);
   report(store);
   if (is_unended()) watch_limits();
+}
+
+// Copies the inputs in a separate thread: a network may be slow, and other jobs need the pool's
+// thread.
+void WorkerRun::begin_copying() {
+  phase_ = Phase::kCopying;
+  progress_ = waiting_progress("its files are copied");
+  copying_ = std::async(std::launch::async, [this, stop = copy_stop_.get_token()] {
+    Status copied =
+        lay_out_inputs(context_.layout, job_.definition.work.inputs, launch_.inputs, stop);
+    context_.wake();
+    return copied;
+  });
+}
+
+// Starts the worker when its inputs are there.
+void WorkerRun::await_inputs() {
+  if (stopped_ != StopReason::kNothing) {
+    copy_stop_.request_stop();
+    return take_end({.wait_status = SIGKILL});
+  }
+  last_answer_ = SteadyClock::now();  // the executor was not asked anything
+  if (copying_.wait_for(milliseconds(0)) != std::future_status::ready) return;
+  Status started = copying_.get();
+  if (started) started = start_worker();
+  if (started) return;
+  phase_ = Phase::kEnded;
+  published_ = tl::unexpected(started.error());
+}
+
+Status WorkerRun::start_worker() {
+  HP_ASSIGN_OR_RETURN(execution_.handle, context_.executor.start(execution_, launch_));
+  phase_ = Phase::kOpen;
+  is_noted_ = !context_.executor.outlives_daemon();  // then no later daemon needs the handle
+  log(LogLevel::kInfo, "job_started",
+      {{"job", job_.id},
+       {"owner", owner()},
+       {"verb", job_.definition.work.verb},
+       {"executor", execution_.executor},
+       {"handle", execution_.handle}});
+  return {};
+}
+
+void WorkerRun::note_handle(JobStore& store) {
+  is_noted_ = true;  // without it, the executor finds the execution by its folder
+  if (const Status noted = store.note_handle(execution_); !noted) {
+    log(LogLevel::kError, "handle_lost", {{"job", job_.id}, {"message", noted.error().message}});
+  }
 }
 
 void WorkerRun::stop(StopReason why) {
@@ -178,7 +235,7 @@ void WorkerRun::watch_limits() {
 // once.
 void WorkerRun::ask_for_end() {
   const auto now = SteadyClock::now();
-  if (now < next_cancel_ || !is_executors_own()) return;
+  if (now < next_cancel_ || !is_executors_own() || phase_ == Phase::kCopying) return;
   next_cancel_ = now + kTryAgainAfter;
   const CancelHow how = kill_at_ ? CancelHow::kAtOnce : CancelHow::kGently;
   if (!context_.executor.cancel(execution_, how) || how == CancelHow::kAtOnce) return;
@@ -195,9 +252,8 @@ Result<std::filesystem::path> WorkerRun::own_output() const {
 }
 
 std::filesystem::path WorkerRun::output_copy() const {
-  const auto runs = context_.layout.runs();
-  if (folder_.root.parent_path() == runs) return folder_.out();
-  return runs / (folder_.root.filename().string() + ".output");
+  if (is_on_state_disk()) return folder_.out();
+  return context_.layout.runs() / (folder_.root.filename().string() + ".output");
 }
 
 Result<WorkerRun::Outcome> WorkerRun::publish() const {

@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,8 @@ class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Creates the input folder and starts the worker.
+  /// Creates the input folder and starts the worker. If the folder is not on the disk of the state
+  /// folder, a thread copies the inputs, and step() starts the worker when they are there.
   [[nodiscard]] static Result<std::unique_ptr<WorkerRun>> start(const Job& job, Execution execution,
                                                                 const Launch& launch,
                                                                 RunContext context);
@@ -76,13 +78,18 @@ class WorkerRun {
     std::vector<Artifact> artifacts;
     std::optional<NewCalibration> calibration;
   };
-  enum class Phase { kOffered, kOpen, kEnded, kLost, kSilent };
+  enum class Phase { kCopying, kOffered, kOpen, kEnded, kLost, kSilent };
 
   WorkerRun(const Job& job, Execution execution, RunContext context);
   [[nodiscard]] bool is_executors_own() const;
+  [[nodiscard]] bool is_on_state_disk() const;
   [[nodiscard]] bool is_unended() const {
-    return phase_ == Phase::kOffered || phase_ == Phase::kOpen;
+    return phase_ == Phase::kCopying || phase_ == Phase::kOffered || phase_ == Phase::kOpen;
   }
+  void begin_copying();
+  void await_inputs();
+  [[nodiscard]] Status start_worker();
+  void note_handle(JobStore& store);
   void watch(const std::optional<Observation>& seen, JobStore& store, std::int64_t now_ms);
   void offer_again();
   void judge_observation(const Observation& seen, std::int64_t now_ms);
@@ -106,7 +113,11 @@ class WorkerRun {
   Execution execution_;
   RunContext context_;
   RunFolder folder_;
+  Launch launch_;
+  std::stop_source copy_stop_;
+  std::future<Status> copying_;  // in Phase::kCopying
   Phase phase_ = Phase::kOpen;
+  bool is_noted_ = true;  // the store knows the handle
   bool is_over_ = false;
   Time last_answer_, next_offer_;
   std::optional<Time> deadline_;  // set when the worker runs

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -524,6 +525,33 @@ TEST_F(Cli, QueuePausesReordersAndResumes) {
   EXPECT_EQ(queue.at("queuedJobs"), json({second, first}));
   EXPECT_EQ(client_json({"queue", "resume"}).at("paused"), false);
   EXPECT_TRUE(becomes(first, "SUCCEEDED"));
+}
+
+// The cluster's shared folder is not mounted.
+TEST_F(Cli, QueueAndStatusSayWhyNoJobStarts) {
+  const auto programs = folder_.path() / "bin", shared = folder_.path() / "shared";
+  std::filesystem::create_directories(programs);
+  std::filesystem::create_directories(shared);
+  for (const char* name : {"sbatch", "squeue", "scancel"}) {
+    std::filesystem::permissions(folder_.write(std::string("bin/") + name, "#!/bin/sh\n"),
+                                 std::filesystem::perms::owner_all);
+  }
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (programs.string() + ":" + path).c_str(), 1);
+  DaemonProcess::Options options = DaemonProcess::fake();
+  options.workers = "executor = \"slurm\"\n[workers.slurm]\nfolder = \"" + shared.string() + "\"\n";
+  start(options);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(client_json({"queue"}).at("blockedReason"), "");
+
+  std::filesystem::rename(shared, folder_.path() / "elsewhere");
+  const std::string job = submit("sleep 0.1");
+  EXPECT_TRUE(wait_until([&] { return client_json({"queue"}).at("blockedReason") != ""; }));
+  EXPECT_EQ(state_of(job), "QUEUED");
+  for (const char* verb : {"queue", "status"}) {
+    const std::string said = client({verb}).out;
+    EXPECT_NE(said.find("no job starts: " + shared.string()), std::string::npos) << said;
+  }
 }
 
 class CliDownload : public Cli {

@@ -25,6 +25,9 @@ Status show(const Program& program, const Result<v1::Queue>& queue) {
     return {};
   }
   std::cout << (queue->paused() ? "paused: " + printable(queue->pause_reason()) : "open") << "\n";
+  if (!queue->blocked_reason().empty()) {
+    std::cout << "no job starts: " << printable(queue->blocked_reason()) << "\n";
+  }
   print_names("running:", queue->running_jobs());
   print_names("queued: ", queue->queued_jobs());
   return {};

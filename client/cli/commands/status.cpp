@@ -22,6 +22,9 @@ void show(const Program& program, const std::string& health, const v1::Queue& qu
             << queue.running_jobs_size() << " running on " << queue.worker_slots() << " workers, "
             << queue.queued_count() << " queued"
             << (queue.paused() ? ", paused: " + printable(queue.pause_reason()) : "") << "\n";
+  if (!queue.blocked_reason().empty()) {
+    std::cout << "no job starts: " << printable(queue.blocked_reason()) << "\n";
+  }
 }
 
 Status status(Program& program) {

@@ -1,12 +1,20 @@
 // WorkerRun as the judge of what an executor reports; no process is involved.
 #include "daemon/workers/worker_run.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
+#include <cstdlib>
+#include <future>
+
+#include "daemon/platform/durable_file.h"
 #include "daemon/workers/local_executor.h"
 #include "tests/daemon/store/store_fixture.h"
+#include "tests/support/content.h"
 #include "tests/support/paths.h"
+#include "tests/support/timing.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -17,7 +25,11 @@ class NotingExecutor : public WorkerExecutor {
   [[nodiscard]] std::string name() const override { return "noting"; }
   [[nodiscard]] bool outlives_daemon() const override { return true; }
   [[nodiscard]] int capacity() const override { return 1; }
-  [[nodiscard]] Result<std::string> start(const Execution&, const Launch&) override { return "h"; }
+  [[nodiscard]] Result<std::string> start(const Execution&, const Launch& launch) override {
+    started_with.emplace(launch);
+    if (refuses) return fail(Code::kInternal, "refused", "WORKER_UNUSABLE");
+    return "h";
+  }
   [[nodiscard]] Observations poll(const std::vector<Execution>&) override { return {}; }
   [[nodiscard]] Status cancel(const Execution&, CancelHow how) override {
     cancels.push_back(how);
@@ -26,6 +38,8 @@ class NotingExecutor : public WorkerExecutor {
   [[nodiscard]] Adoption adopt(const Execution&) override { return Adoption::kNoAnswer; }
 
   std::vector<CancelHow> cancels;
+  std::optional<Launch> started_with;
+  bool refuses = false;
 };
 
 class WorkerRunTest : public StoreTest {
@@ -90,6 +104,114 @@ TEST_F(WorkerRunTest, WorkerThatIsGoneIsQueuedAgain) {
   start({std::chrono::seconds(60)});
   EXPECT_TRUE(step(WorkerIsGone()));
   EXPECT_EQ(job().state, JobState::kQueued);
+}
+
+/// The folder of the run is on another file system, and an input whose copy ends when somebody
+/// opens it for writing.
+class SlowShare : public WorkerRunTest {
+ protected:
+  void SetUp() override {
+    const auto asset = layout.asset(kSha256);
+    std::filesystem::create_directories(asset.parent_path());
+    ASSERT_EQ(::mkfifo(asset.c_str(), 0600), 0);
+    std::string name = "/dev/shm/hydroprint-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) GTEST_SKIP() << "no /dev/shm";
+    share = name;
+    struct stat here {
+    }, there{};
+    ASSERT_EQ(::stat(folder.path().c_str(), &here) + ::stat(name.c_str(), &there), 0);
+    if (here.st_dev == there.st_dev) GTEST_SKIP() << "/dev/shm is the same file system";
+    begin();
+  }
+  void TearDown() override {
+    release();
+    run.reset();
+    std::filesystem::remove_all(share);
+  }
+
+  void begin() {
+    id = add().id;
+    ASSERT_TRUE(jobs->start(id, executor.name(), share));
+    Job copied = job();
+    copied.definition.work.inputs = {{"model.obj", kSha256}};
+    const Execution execution = jobs->executions()->front();
+    Launch launch;
+    launch.inputs = RunFolder{execution.folder}.inputs();
+    run = WorkerRun::start(
+              copied, execution, launch,
+              {executor, layout, {std::chrono::seconds(60)}, [this] { woken.set_value(); }})
+              .value();
+  }
+  void release() {
+    if (is_released || !run) return;
+    is_released = true;
+    ::close(::open(layout.asset(kSha256).c_str(), O_WRONLY));  // waits for the reader
+    woken.get_future().wait();
+  }
+
+  const std::string kSha256 = std::string(64, 'a');
+  std::filesystem::path share;
+  std::promise<void> woken;
+  bool is_released = false;
+};
+
+TEST_F(SlowShare, WorkerStartsWhenItsFilesAreThereAndNothingWaitsForThem) {
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(step(std::nullopt));
+  EXPECT_EQ(job().progress.phase, "waiting: its files are copied");
+  EXPECT_FALSE(executor.started_with);
+  release();
+  EXPECT_FALSE(run->is_open());
+  EXPECT_TRUE(testing::wait_until([&] { return step(std::nullopt) || run->is_open(); }));
+  ASSERT_TRUE(executor.started_with);
+  EXPECT_TRUE(std::filesystem::exists(executor.started_with->inputs / "model.obj"));
+  EXPECT_EQ(jobs->executions()->front().handle, "h");
+}
+
+TEST_F(SlowShare, CancelIsStoredBeforeTheCopyEnds) {
+  ASSERT_TRUE(jobs->cancel(id));
+  run->stop(StopReason::kCancel);
+  EXPECT_TRUE(step(std::nullopt));
+  EXPECT_EQ(job().state, JobState::kCancelled);
+  EXPECT_TRUE(executor.cancels.empty());
+  release();
+  const auto root = run->execution().folder;
+  run.reset();
+  EXPECT_FALSE(executor.started_with);
+  EXPECT_FALSE(std::filesystem::exists(root));
+}
+
+TEST_F(SlowShare, MissingFileAndRefusedStartFailTheJob) {
+  executor.refuses = true;
+  release();
+  EXPECT_TRUE(testing::wait_until([&] { return step(std::nullopt); }));
+  EXPECT_EQ(job().failure->error.message, "refused");
+  run.reset();
+  std::filesystem::remove(layout.asset(kSha256));
+  woken = {};
+  begin();
+  EXPECT_TRUE(testing::wait_until([&] { return step(std::nullopt); }));
+  EXPECT_EQ(job().failure->error.reason, "ASSET_MISSING");
+}
+
+TEST_F(SlowShare, DaemonThatStopsKeepsTheJob) {
+  EXPECT_TRUE(run->outlives_daemon());
+  release();
+  run.reset();
+  EXPECT_EQ(jobs->executions()->size(), 1U);
+  EXPECT_EQ(jobs->executions()->front().handle, "");
+  EXPECT_FALSE(executor.started_with);
+}
+
+TEST_F(WorkerRunTest, CopyEndsAfterARequestToStop) {
+  const auto file = folder.write("file", std::string(3 << 20, 'x'));
+  std::stop_source stop;
+  const UniqueFd source(::open(file.c_str(), O_RDONLY));
+  EXPECT_TRUE(copy_bytes(source, 3 << 20, folder.path() / "copy", stop.get_token()));
+  EXPECT_EQ(testing::content(folder.path() / "copy"), testing::content(file));
+  stop.request_stop();
+  EXPECT_EQ(copy_bytes(source, 3 << 20, folder.path() / "no", stop.get_token()).error().code,
+            Code::kCancelled);
+  EXPECT_FALSE(copy_bytes(source, 4 << 20, folder.path() / "short"));
 }
 
 TEST_F(WorkerRunTest, LocalWorkersEndWithTheirExecutorAndAreNotAdopted) {

@@ -1,5 +1,5 @@
 /** Texts that describe jobs, the same on every screen. */
-import type { Job, JobState } from '../api/types';
+import type { Job, JobState, Queue } from '../api/types';
 import { formatSeconds, formatTime } from '../model/units';
 import { now, secondsUntil } from './clock';
 import { Progress } from './controls';
@@ -64,11 +64,19 @@ export const State = ({ state, phase }: { state: JobState; phase?: string }) => 
   </span>
 );
 
+/** Why no job of the queue starts, beyond those before it; undefined if they start. */
+export function holdReason(queue: Queue | undefined): string | undefined {
+  if (queue?.paused) return `the queue is paused${queue.pauseReason && `: ${queue.pauseReason}`}`;
+  return queue?.blockedReason || undefined;
+}
+
 /** Progress and remaining time of a job. */
-export function JobProgress({ job }: { job: Job }) {
-  if (job.state === 'QUEUED') return <span class="quiet">waiting in the queue</span>;
+export function JobProgress({ job, queue }: { job: Job; queue?: Queue }) {
+  if (job.state === 'QUEUED') {
+    return <span class="quiet">waiting: {holdReason(queue) ?? 'in the queue'}</span>;
+  }
   const reason = clusterReason(job);
-  if (reason !== undefined) return <span class="quiet">in the cluster’s queue: {reason}</span>;
+  if (reason !== undefined) return <span class="quiet">waiting for the cluster: {reason}</span>;
   const left = secondsUntil(job.etaTime);
   return (
     <span class="how-far">

@@ -4,7 +4,7 @@ import type { Job, JobInput } from '../../api/types';
 import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
 import { againPath, go } from '../../route';
-import { canRetry, forget, isFinished, known, refresh, remember } from '../../state/jobs';
+import { canRetry, forget, isFinished, known, queue, refresh, remember } from '../../state/jobs';
 import { orNotify, say } from '../../state/notices';
 import { may, mayChange } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
@@ -168,7 +168,7 @@ function Underway({ job }: { job: Job }) {
   if (kindOf(job) === 'dip') return <Left job={job} />;
   return (
     <section class="underway" role="status">
-      <JobProgress job={job} />
+      <JobProgress job={job} queue={queue.value} />
       {job.state === 'RUNNING' && left !== undefined && left > 0 && (
         <p class="clock">
           {formatSeconds(Math.ceil(left))}

@@ -95,7 +95,7 @@ function Line() {
   if (!line) return null;
   const running = line.runningJobs.length;
   return (
-    <div class={`line ${line.paused ? 'paused' : ''}`}>
+    <div class={`line ${line.paused || line.blockedReason ? 'paused' : ''}`}>
       <p>
         {running} of {line.workerSlots} workers are busy; jobs waiting: {line.queuedCount}.
         {line.paused && (
@@ -103,6 +103,12 @@ function Line() {
             {' '}
             The queue is paused{line.pauseReason ? `: ${line.pauseReason}` : ''}. Running jobs
             continue; no new jobs start.
+          </strong>
+        )}
+        {!line.paused && line.blockedReason && (
+          <strong>
+            {' '}
+            No job starts now: {line.blockedReason}. Jobs that wait start by themselves.
           </strong>
         )}
       </p>
