@@ -80,6 +80,12 @@ SlurmExecutor::SlurmExecutor(Settings settings, Pace pace, FolderLock lock, bool
       query_(installation_folder(settings_), pace.between_queries, pace.query_patience) {}
 
 Status SlurmExecutor::ready() {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(installation_folder(settings_), ignored)) {
+    return fail(Code::kFailedPrecondition,
+                installation_folder(settings_).string() +
+                    " (workers.slurm.folder) is missing; mount the shared file system");
+  }
   HP_RETURN_IF_ERROR(locked_);
   return check_free_space(installation_folder(settings_), kLeastFree);
 }

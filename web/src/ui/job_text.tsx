@@ -76,7 +76,7 @@ export function JobProgress({ job, queue }: { job: Job; queue?: Queue }) {
     return <span class="quiet">waiting: {holdReason(queue) ?? 'in the queue'}</span>;
   }
   const reason = clusterReason(job);
-  if (reason !== undefined) return <span class="quiet">waiting for the cluster: {reason}</span>;
+  if (reason !== undefined) return <span class="quiet">at the cluster: {reason}</span>;
   const left = secondsUntil(job.etaTime);
   return (
     <span class="how-far">
