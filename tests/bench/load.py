@@ -67,7 +67,10 @@ async def watch(address, board):
             if not line:
                 raise RuntimeError("the daemon closed the connection of a watcher")
             if line.startswith(b"data:") and b'"CANCELLED"' in line:
-                board.hear(json.loads(line[5:])["job"]["job"]["name"])
+                news = json.loads(line[5:])["job"]
+                # An earlier event that arrives late also holds the job, which is cancelled by now.
+                if news["event"]["state"] == "CANCELLED":
+                    board.hear(news["job"]["name"])
 
 
 class Board:

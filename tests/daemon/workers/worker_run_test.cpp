@@ -117,8 +117,8 @@ class SlowShare : public WorkerRunTest {
     std::string name = "/dev/shm/hydroprint-XXXXXX";
     if (::mkdtemp(name.data()) == nullptr) GTEST_SKIP() << "no /dev/shm";
     share = name;
-    struct stat here {
-    }, there{};
+    struct stat here {};
+    struct stat there {};
     ASSERT_EQ(::stat(folder.path().c_str(), &here) + ::stat(name.c_str(), &there), 0);
     if (here.st_dev == there.st_dev) GTEST_SKIP() << "/dev/shm is the same file system";
     begin();

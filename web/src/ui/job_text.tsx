@@ -64,7 +64,7 @@ export const State = ({ state, phase }: { state: JobState; phase?: string }) => 
   </span>
 );
 
-/** Why no job of the queue starts, beyond those before it; undefined if they start. */
+/** Why no queued job starts; undefined if jobs start in their turn. */
 export function holdReason(queue: Queue | undefined): string | undefined {
   if (queue?.paused) return `the queue is paused${queue.pauseReason && `: ${queue.pauseReason}`}`;
   return queue?.blockedReason || undefined;
