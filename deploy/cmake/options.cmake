@@ -5,7 +5,7 @@ option(HYDROPRINT_TESTS "Build the tests" ON)
 option(HYDROPRINT_BENCH "Build the benchmarks" ON)
 option(HYDROPRINT_DAEMON "Build the daemon and the client (needs gRPC)" ON)
 option(HYDROPRINT_FUZZ "Build the fuzzers instead of the tests (needs clang)" OFF)
-option(HYDROPRINT_WERROR "Treat warnings as errors" OFF)
+option(HYDROPRINT_WERROR "Treat warnings of GCC 12 as errors; other compilers have other warnings" OFF)
 option(HYDROPRINT_ASSERTS "Keep the assertions of the libraries' headers (leave NDEBUG undefined)" OFF)
 option(HYDROPRINT_GROUP_FILES "Compile several files at once in targets declared GROUPED" OFF)
 set(HYDROPRINT_SANITIZE "" CACHE STRING "Sanitizers for the project's own code: address;undefined, or thread")
@@ -18,7 +18,7 @@ target_compile_options(hydroprint_options INTERFACE
   -ffp-contract=off
   # GCC 12 reports overlaps in std::string's operator+ that do not exist (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
-if(HYDROPRINT_WERROR)
+if(HYDROPRINT_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.")
   # GCC 12 reports overruns in std::string's operator+ that do not exist (its bug 105329).
   target_compile_options(hydroprint_options INTERFACE -Werror
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=array-bounds>)
