@@ -1,11 +1,5 @@
 #include "sim/velocity/film_mesh.h"
 
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Delaunay_mesh_criteria_2.h>
-#include <CGAL/Delaunay_mesh_face_base_2.h>
-#include <CGAL/Delaunay_mesher_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,79 +11,16 @@
 #include "sim/base/check.h"
 #include "sim/velocity/curve_sampling.h"
 #include "sim/velocity/quadratic_elements.h"
+#include "sim/velocity/refinement.h"
 
 namespace hydroprint::velocity {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Triangulation =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
-using Point = Kernel::Point_2;
+using Point = Triangulation::Point;
 
-constexpr double kSquaredSine = 0.25;  ///< squared sine of the smallest angle, 30 degrees
-
-/// Triangles whose edges are all shorter than this are not refined for their angles. Otherwise,
-/// gaps between waterlines that nearly touch would be filled with ever smaller triangles.
-constexpr double kTiny_mm = 0.1;
-
-/// A triangle is bad if an angle is below 30 degrees or its longest edge exceeds the sizing field.
-class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
-  using Base = CGAL::Delaunay_mesh_criteria_2<Triangulation>;
-
- public:
-  /// Squared sine of the smallest angle, and squared ratio of edge length to target size. The queue
-  /// processes oversized triangles first.
-  struct Quality {
-    double sine2 = 1, size2 = 0;
-    bool is_tiny = false;
-    bool operator<(const Quality& other) const {
-      if (size2 > 1 || other.size2 > 1) {
-        return size2 != other.size2 ? size2 > other.size2 : sine2 < other.sine2;
-      }
-      return sine2 < other.sine2;
-    }
-  };
-
-  class Is_bad {  // NOLINT(readability-identifier-naming): the name required by CGAL's concept
-   public:
-    using Quality = Criteria::Quality;
-    explicit Is_bad(const Sizing* sizing) : sizing_(sizing) {}
-
-    CGAL::Mesh_2::Face_badness operator()(const Quality& q) const {
-      if (q.size2 > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
-      return q.sine2 < kSquaredSine && !q.is_tiny ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
-    }
-
-    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face,
-                                          Quality& quality) const {
-      const Point& a = face->vertex(0)->point();
-      const Point& b = face->vertex(1)->point();
-      const Point& c = face->vertex(2)->point();
-      std::array<double, 3> square = {CGAL::squared_distance(b, c), CGAL::squared_distance(c, a),
-                                      CGAL::squared_distance(a, b)};
-      std::sort(square.begin(), square.end());
-      const double twice_area =
-          (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-      quality.sine2 = twice_area * twice_area / (square[1] * square[2]);
-      const double size = sizing_->at({(a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3});
-      quality.size2 = square[2] / (size * size);
-      quality.is_tiny = square[2] < kTiny_mm * kTiny_mm;
-      return (*this)(quality);
-    }
-
-   private:
-    const Sizing* sizing_;
-  };
-
-  explicit Criteria(const Sizing* sizing) : Base(kSquaredSine), sizing_(sizing) {}
-  [[nodiscard]] Is_bad is_bad_object() const { return Is_bad(sizing_); }
-
- private:
-  const Sizing* sizing_;
-};
+/// Triangles with less than half this area, which lie between curves that touch, are left out. They
+/// could make the matrix of the flow singular.
+constexpr double kFlat_mm2 = 1e-12;
 
 void insert_loop(Triangulation& triangulation, const std::vector<Eigen::Vector2d>& loop) {
   std::vector<Triangulation::Vertex_handle> handles;
@@ -145,8 +76,7 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
-/// Returns a limit far above the number of vertices that the sizes imply. Without this limit, the
-/// mesher would divide edges forever where two waterlines touch.
+/// Returns a limit far above the number of vertices that the sizes imply.
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {
@@ -157,13 +87,19 @@ std::size_t most_vertices(const film::Outline& outline,
   return static_cast<std::size_t>(kBaseVertices + kPerPoint * points + kPerCoarsest * coarsest);
 }
 
+bool is_flat(const Triangulation::Face_handle& face) {
+  const auto u = face->vertex(1)->point() - face->vertex(0)->point();
+  const auto v = face->vertex(2)->point() - face->vertex(0)->point();
+  return u.x() * v.y() - u.y() * v.x() < kFlat_mm2;
+}
+
 FilmMesh extract(const Triangulation& triangulation, const film::Outline& outline) {
   FilmMesh mesh;
   CGAL::Unique_hash_map<Triangulation::Vertex_handle, int> index(-1);
   std::unordered_map<std::uint64_t, int> edge_index;
   std::vector<char> sides;  // number of film triangles at each edge
   for (auto face : triangulation.finite_face_handles()) {
-    if (!face->is_in_domain()) continue;
+    if (!face->is_in_domain() || is_flat(face)) continue;
     Eigen::Vector3i corners, edges;
     for (int i = 0; i < 3; ++i) {
       const auto vertex = face->vertex(i);
@@ -203,6 +139,7 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
                            const MeshOptions& options) {
   HP_CHECK(line.bounds_film.size() == line.section.size());
   HP_CHECK(outline.polygon.size() >= 3);
+  HP_CHECK(options.size.at_waterline_mm > kTiny_mm);
   std::vector<std::vector<Eigen::Vector2d>> waterlines;
   for (std::size_t l = 0; l < line.section.size(); ++l) {
     if (!line.bounds_film[l]) continue;
@@ -217,17 +154,13 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     insert_loop(triangulation, outline.polygon);
     for (const auto& loop : waterlines) insert_loop(triangulation, loop);
     mark_film(triangulation);
-    CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation, Criteria(&sizing));
-    mesher.init(true);
     const std::size_t most = most_vertices(outline, waterlines, options.size);
-    while (mesher.step_by_step_refine_mesh()) {
-      if (triangulation.number_of_vertices() > most) {
-        return fail(Code::kInternal,
-                    fmt::format("film mesh at immersion {:.2f} mm: needs more than {} vertices. "
-                                "Smooth the model, or dip another part of it",
-                                line.immersion_mm, most),
-                    kMeshUnbounded);
-      }
+    if (!refine(triangulation, sizing, most)) {
+      return fail(Code::kInvalidArgument,
+                  fmt::format("film mesh at immersion {:.2f} mm: needs more than {} vertices. "
+                              "Smooth the model, or dip another part of it",
+                              line.immersion_mm, most),
+                  kMeshUnbounded);
     }
     FilmMesh mesh = extract(triangulation, outline);
     mesh.elimination_order = elimination_order(mesh);
