@@ -183,6 +183,28 @@ def plate_of_helmet(row: int, column: int, rows: int, per_row: int, cells: int) 
     return solids.shell_of_patch(on_dome(radius + 1.6, theta, phi), on_dome(radius, theta, phi))
 
 
+def assembly(small: bool) -> Body:
+    """A machine part of shells that touch or contain each other: plates, rows of pins, stacked washers, fins and
+    sleeves of 0.001 mm. No corner is common. Dipped with the sleeves first."""
+    columns = 4 if small else 8
+    width = 12.0 * columns
+    parts = [solids.box((0, 0, 0), (width, 60, 8))]
+    for column in range(columns):
+        x, sides = 12.0 * column, 24 if small else 48
+        parts.append(solids.sleeve((x + 6, 42), (4.5, 4.501), (-24, 0), sides))
+        parts += [cylinder((x + 6, 42), (low, low + 3), 3 - 0.2 * abs(low + 6), 24) for low in (-12, -9, -6, -3)]
+        parts += [cylinder((x + 3 + 6 * k, 8), (-8 - k, k), 3, 16 + 8 * k) for k in range(2)]
+        parts += [cylinder((x + 6, 42), (8, 12), radius, 24) for radius in (1, 2, 3, 4, 5)]
+        parts += [solids.box((x + 3 * k, 16, -16), (x + 3 * k + 0.001 * 4 ** k, 30, 0)) for k in range(4)]
+        parts += [solids.box((x + 3 * k, 10 + k, 8), (x + 3 * k + 3, 34 + k, 11 + k % 2)) for k in range(4)]
+    return Body(solids.joined(parts), len(parts))
+
+
+def cylinder(middle: tuple[float, float], z: tuple[float, float], radius: float, sides: int) -> Shape:
+    low, high = (np.array([*middle, end], float) for end in z)
+    return solids.frustum(low, high, (radius, radius), sides)
+
+
 # Middle, radii, turn about x in degrees.
 Ellipsoid = tuple[tuple[float, float, float], tuple[float, float, float], float]
 BEAR: list[Ellipsoid] = [
@@ -392,6 +414,7 @@ BODIES: dict[str, Callable[[bool], Body]] = {
     "hedgehog": hedgehog,
     "scan": noisy_scan,
     "helmet": helmet,
+    "assembly": assembly,
     "bear": lambda small: of_ellipsoids(small, "bear"),
     "figure": lambda small: of_ellipsoids(small, "figure"),
     "cup": cup,

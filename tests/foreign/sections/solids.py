@@ -93,6 +93,15 @@ def torus(big_mm: float, small_mm: float, around: int, along: int) -> Shape:
     return points.reshape(-1, 3), grid_triangles(around, along, True, True)
 
 
+def sleeve(middle: tuple[float, float], radii: tuple[float, float], z: tuple[float, float], sides: int) -> Shape:
+    """An upright tube that is open at both ends."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    (inner, outer), (low, high) = radii, z
+    rows = [np.stack([middle[0] + r * np.cos(angle), middle[1] + r * np.sin(angle), np.full(sides, end)], axis=1)
+            for r, end in ((outer, low), (outer, high), (inner, high), (inner, low))]
+    return np.stack(rows, axis=1).reshape(-1, 3), grid_triangles(sides, 4, True, True)
+
+
 def grid_triangles(rows: int, columns: int, rows_close: bool = False, columns_close: bool = False) -> np.ndarray:
     """Triangles of a grid of points, row by row; the last row or column may be joined to the first."""
     i = np.arange(rows if rows_close else rows - 1)[:, None]
