@@ -16,36 +16,49 @@ namespace {
 constexpr double kHalfRange_mm = 300, kCell_mm = 4;
 constexpr int kColumns = static_cast<int>(2 * kHalfRange_mm / kCell_mm);
 constexpr std::size_t kMostPoints = 50'000'000;
-constexpr int kDoubles = 7;  // x, y, z, film_x, film_y, contact_time, stretch
+/// The columns that are read; others follow them.
+const std::string kColumnsRead =
+    "property double x\nproperty double y\nproperty double z\n"
+    "property double film_x\nproperty double film_y\nproperty double contact_time\n";
+constexpr std::size_t kMostDoubles = 64;
 
-/// The header that the worker writes; only its version and counts may vary.
+/// The header that the worker writes; only its version, its counts and later columns may vary.
 struct Header {
   std::size_t points = 0, triangles = 0;
+  std::size_t doubles = 0;  ///< columns of the points
   bool is_good = false;
 };
 
 Header read_header(std::istream& file) {
   Header out;
-  std::string properties;
+  std::string columns, of_faces;
+  bool is_binary = false, has_other_types = false;
   for (std::string line; std::getline(file, line) && line != "end_header";) {
     std::istringstream words(line);
     std::string first, second;
     words >> first >> second;
+    is_binary = is_binary || line == "format binary_little_endian 1.0";
     if (first == "element") words >> (second == "vertex" ? out.points : out.triangles);
-    if (first == "property" || first == "format") properties += line + "\n";
+    if (first != "property") continue;
+    if (second == "list") {
+      of_faces += line;
+      continue;
+    }
+    has_other_types = has_other_types || second != "double";
+    columns += line + "\n";
+    ++out.doubles;
   }
-  out.is_good = file && out.points <= kMostPoints && out.triangles <= kMostPoints &&
-                properties ==
-                    "format binary_little_endian 1.0\nproperty double x\nproperty double y\n"
-                    "property double z\nproperty double film_x\nproperty double film_y\n"
-                    "property double contact_time\nproperty double stretch\n"
-                    "property list uchar int vertex_indices\n";
+  out.is_good = file && is_binary && !has_other_types && columns.starts_with(kColumnsRead) &&
+                out.doubles <= kMostDoubles &&
+                of_faces == "property list uchar int vertex_indices" && out.points <= kMostPoints &&
+                out.triangles <= kMostPoints;
   return out;
 }
 
-void read_points(std::istream& file, std::size_t count, SurfaceMap& out) {
-  double v[kDoubles];
-  for (std::size_t i = 0; i < count && file.read(reinterpret_cast<char*>(v), sizeof v); ++i) {
+void read_points(std::istream& file, const Header& header, SurfaceMap& out) {
+  double v[kMostDoubles];
+  const auto bytes = static_cast<std::streamsize>(header.doubles * sizeof v[0]);
+  for (std::size_t i = 0; i < header.points && file.read(reinterpret_cast<char*>(v), bytes); ++i) {
     out.points.emplace_back(v[0], v[1], v[2]);
     out.film_mm.emplace_back(v[3], v[4]);
     out.time_s.push_back(v[5]);
@@ -85,7 +98,7 @@ Result<SurfaceMap> read_surface_map(const std::filesystem::path& path) {
   const Header header = read_header(file);
   SurfaceMap out;
   if (header.is_good) {
-    read_points(file, header.points, out);
+    read_points(file, header, out);
     read_triangles(file, header.triangles, out);
   }
   if (header.is_good && out.points.size() == header.points &&

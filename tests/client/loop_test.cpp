@@ -114,7 +114,12 @@ TEST(Loop, InvalidSurfaceMapsAreRefused) {
   EXPECT_TRUE(refused(header));
   EXPECT_TRUE(refused(header + points));
   EXPECT_TRUE(refused(header + points + std::string("\3\0\0\0\0\1\0\0\0\7\0\0\0", 13)));
-  EXPECT_FALSE(refused(header + points + std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13)));
+  const std::string triangle("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+  EXPECT_FALSE(refused(header + points + triangle));
+  std::string later = header;
+  later.insert(later.find("element face"), "property double error_mm\n");
+  EXPECT_TRUE(refused(later + points + triangle)) << "too short";
+  EXPECT_FALSE(refused(later + points + std::string(3 * 8, '\0') + triangle));
 }
 
 TEST(Loop, TheBoardIsFullyInViewOfTheCamera) {

@@ -33,7 +33,7 @@ class Limits:
 
 def columns(plan: Mesh, name: str) -> np.ndarray:
     """Columns name_1 ... name_K as points x dips."""
-    count = sum(field.startswith(name + "_") for field in plan.vertices.dtype.names)
+    count = sum(field.removeprefix(name + "_").isdigit() for field in plan.vertices.dtype.names)
     return np.stack([plan.vertices[f"{name}_{k + 1}"] for k in range(count)], axis=1).astype(float)
 
 
