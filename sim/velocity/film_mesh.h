@@ -36,9 +36,9 @@ struct FilmMesh {
 /// linear elements) alone causes errors of up to 1.2 mm on the far side of a sphere.
 struct MeshOptions {
   Sizing::Options size;
-  double spacing_mm = 2.0;     ///< distance of mesh vertices along the waterline
-  double tolerance_mm = 0.01;  ///< largest distance of the mesh edges there from the waterline
-  double least_mm = 0.1;       ///< smaller features of the waterline are smoothed
+  double spacing_mm = 3.0;      ///< distance of mesh vertices along the waterline
+  double tolerance_mm = 0.015;  ///< largest distance of the mesh edges there from the waterline
+  double least_mm = 0.1;        ///< smaller features of the waterline are smoothed
 };
 
 inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";  ///< error reason of mesh_film()

@@ -13,9 +13,9 @@ namespace hydroprint::velocity {
 class Sizing {
  public:
   struct Options {
-    double at_waterline_mm = 2.5;
-    double growth = 0.7;  ///< mm of edge length per mm of distance
-    double most_mm = 25;
+    double at_waterline_mm = 3.75;
+    double growth = 1.05;  ///< mm of edge length per mm of distance
+    double most_mm = 37.5;
   };
 
   Sizing(const film::Outline& outline, const std::vector<std::vector<Eigen::Vector2d>>& waterlines,

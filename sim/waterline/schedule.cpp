@@ -210,6 +210,7 @@ Schedule schedule(const Body& body, double depth_mm, const ScheduleOptions& opti
       out.left_out_mm.push_back(event.level_mm);
     }
   }
+  depths.insert(depths.end(), options.added_mm.begin(), options.added_mm.end());
   const auto gap_at = [&](double level_mm) {
     return is_edge(events, level_mm, gap_mm) ? edge_gap_mm : gap_mm;
   };

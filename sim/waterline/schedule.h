@@ -15,7 +15,7 @@ struct ScheduleOptions {
   /// curvature in the vertical direction, it is multiplied by the ratio of the radii to the power
   /// 2/3, so that the error in mm stays about the same. It is halved where the waterline crosses
   /// creases.
-  double swept_mm = 3.2;
+  double swept_mm = 1.6;
   static constexpr double kLarge_mm = 42;
   /// Faces within this angle of horizontal touch the water all at once. Waterlines are computed
   /// just before and just after them.
@@ -27,7 +27,9 @@ struct ScheduleOptions {
   /// last before it. Closer to it, the film would be meshed around a needle as long as the edge.
   double edge_gap_mm = 0.05;
   /// Largest number of waterlines of a dip.
-  std::size_t most = 400;
+  std::size_t most = 800;
+  /// Immersions at which there are waterlines in any case.
+  std::vector<double> added_mm;
   /// True as if the object had vents that the mesh does not show: air keeps no film out of hollows.
   bool air_escapes = false;
 };

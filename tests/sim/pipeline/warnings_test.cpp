@@ -153,7 +153,7 @@ TEST(Warnings, WaterlinesLimitedNamesTheEffectsAndTheWorstPlace) {
   ASSERT_EQ(some.size(), 1U);
   EXPECT_EQ(some.front().code, "waterlines_limited");
   EXPECT_EQ(some.front().where, "20.50 mm immersion");
-  for (const char* part : {"400 waterlines", "1.5 times", "2 small level", "2 changes", "1 mm"}) {
+  for (const char* part : {"800 waterlines", "1.5 times", "2 small level", "2 changes", "1 mm"}) {
     EXPECT_NE(some.front().message.find(part), std::string::npos) << part;
   }
 }
