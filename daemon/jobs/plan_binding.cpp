@@ -36,6 +36,8 @@ void take_film(const v1::PlanSpec& plan, v1::SimulateSpec& spec) {
   if (film.has_profile() && !spec.has_profile()) *spec.mutable_profile() = film.profile();
   if (film.has_dip_speed_mm_per_s() && !spec.has_dip_speed_mm_per_s())
     spec.set_dip_speed_mm_per_s(film.dip_speed_mm_per_s());
+  if (film.has_tolerance_mm() && !spec.has_tolerance_mm())
+    spec.set_tolerance_mm(film.tolerance_mm());
   if (plan.has_dpi() && !spec.has_dpi()) spec.set_dpi(plan.dpi());
   if (spec.model() != v1::MODEL_UNSPECIFIED) return;
   spec.set_model(film.model());

@@ -21,6 +21,9 @@ struct MapOptions {
   /// Tile edges shorter than this on the film are not divided further (a pixel at 600 dpi).
   double least_edge_mm = 0.042;
   bool make_tiles = true;
+  /// The stated error is TracedBack::error_mm times this factor; 0: none is stated.
+  double error_factor = 0;
+  double pixel_mm = 25.4 / 600;  ///< of the film image
 };
 
 /// Adapts options made for 600 dpi to an image of another resolution. Larger pixels allow a coarser

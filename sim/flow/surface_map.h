@@ -14,6 +14,8 @@ struct SurfaceMap {
   /// Largest singular value of the film-to-surface Jacobian (section 6); see point_stretch().
   std::vector<double> stretch;
   std::vector<double> least_stretch;  ///< the smaller singular value
+  /// Stated error of `film_mm`; infinite where no bound is known. Empty if none is stated.
+  std::vector<double> error_mm;
 };
 
 /// A small triangle of the surface on which the map from surface to film is continuous, and linear

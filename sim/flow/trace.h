@@ -48,7 +48,8 @@ struct RestMap {
 
 /// Returns the position at rest of each node of the film mesh of waterline `k`.
 /// @param known  map of an earlier waterline, at which tracing stops; nullptr: traces back to rest
-/// @return NaN where the film at `known` does not contain the point
+///               A point beyond that film has the rest position of the film's nearest node: a gap
+///               would grow by a ring of triangles from map to map, until no film is known
 [[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k,
                                                       const RestMap* known = nullptr);
 

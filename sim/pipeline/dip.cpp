@@ -9,7 +9,7 @@ namespace hydroprint::pipeline {
 Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map, double unsettled_mm,
                  const DipOptions& options) {
   Dip dip;
-  dip.figures = figures_of(first, map.surface, options.profile);
+  dip.figures = figures_of(first, map.surface, options);
   dip.figures.unsettled_mm = unsettled_mm;
   dip.figures.tiles_limited = map.is_limited;
   dip.warnings = model.warnings;

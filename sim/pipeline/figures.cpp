@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -86,6 +87,31 @@ void measure_stretch(const flow::SurfaceMap& map, const std::vector<char>& is_me
   figures.stretch_p50 = quantile(0.5);
   figures.stretch_p95 = quantile(0.95);
   figures.stretch_max = stretch.back();
+}
+
+/// Sets the stated error of the counted points with film.
+void measure_error(const flow::SurfaceMap& map, const std::vector<char>& counted,
+                   const DipOptions& options, DipFigures& figures) {
+  figures.error.reset();
+  std::vector<double> errors;
+  double worst_mm = 0;
+  for (std::size_t v = 0; v < map.error_mm.size(); ++v) {
+    if (counted[v] == 0 || std::isnan(map.error_mm[v])) continue;
+    errors.push_back(map.error_mm[v]);
+    if (map.error_mm[v] <= worst_mm) continue;
+    worst_mm = map.error_mm[v];
+    figures.worst_error_immersion_mm = map.contact_time_s[v] * options.dip_speed_mm_per_s;
+  }
+  if (errors.empty()) return;
+  std::ranges::sort(errors);
+  const auto count = static_cast<double>(errors.size());
+  const auto share_above = [&](double limit_mm) {
+    return static_cast<double>(errors.end() - std::ranges::upper_bound(errors, limit_mm)) / count;
+  };
+  const auto quantile = [&](double q) { return errors[static_cast<std::size_t>(q * (count - 1))]; };
+  figures.error = MapError{quantile(0.5), quantile(0.95), share_above(options.map.pixel_mm),
+                           share_above(std::numeric_limits<double>::max()),
+                           options.tolerance_mm ? share_above(*options.tolerance_mm) : 0};
 }
 
 std::string at_immersion(double immersion_mm) {
@@ -178,6 +204,19 @@ void warn_of_level_faces(const std::vector<waterline::LevelFace>& faces, Warning
        where_of(faces.front())});
 }
 
+/// Warns where the stated error exceeds the tolerance.
+void warn_of_error(const DipFigures& figures, const DipOptions& options, Warnings& warnings) {
+  if (!figures.error || figures.error->beyond_share <= 0) return;
+  warnings.push_back(
+      {"tolerance_exceeded",
+       fmt::format(
+           "the stated error of {} of the points exceeds {} mm after {} refinements, most at "
+           "this immersion. Turn the object, dip less deep, or accept a larger tolerance",
+           percent(figures.error->beyond_share), *options.tolerance_mm,
+           DipOptions::kMostRefinements),
+       at_immersion(figures.worst_error_immersion_mm)});
+}
+
 /// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
 void warn_of_tears(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
   const auto warn = [&](double share, const char* code, const std::string& message) {
@@ -199,18 +238,19 @@ void warn_of_tears(const DipFigures& figures, const film::Profile& profile, Warn
 }  // namespace
 
 DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
-                      const film::Profile& profile) {
+                      const DipOptions& options) {
   DipFigures figures = figures_of_pass(pass);
   const std::vector<char> all(pass.surface.points.size(), 1);
-  measure_part(pass.surface, pass.body, map, profile, all, figures);
+  measure_part(pass.surface, pass.body, map, options, all, figures);
   figures.level_faces =
       waterline::find_level_faces(pass.body, triangles_with_film(pass.surface, map));
   return figures;
 }
 
 void measure_part(const mesh::Surface& surface, const waterline::Body& body,
-                  const flow::SurfaceMap& map, const film::Profile& profile,
+                  const flow::SurfaceMap& map, const DipOptions& options,
                   const std::vector<char>& counted, DipFigures& figures) {
+  const film::Profile& profile = options.profile;
   Shares shares;
   std::vector<char> is_measured = counted;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -238,6 +278,7 @@ void measure_part(const mesh::Surface& surface, const waterline::Body& body,
     figures.torn_share = shares.torn / shares.total;
   }
   measure_stretch(map, is_measured, figures);
+  measure_error(map, counted, options, figures);
 }
 
 Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options) {
@@ -275,6 +316,7 @@ Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options
          "surface"});
   }
   warn_of_tears(figures, options.profile, warnings);
+  warn_of_error(figures, options, warnings);
   return warnings;
 }
 

@@ -10,20 +10,21 @@ namespace hydroprint::pipeline {
 
 /// Computes the figures of a dip for the report. Shares are of the outer surface (Surface::inner).
 [[nodiscard]] DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
-                                    const film::Profile& profile);
+                                    const DipOptions& options);
 
-/// Sets the shares of the surface and the stretch in `figures` for a part of the surface. The
-/// shares remain relative to the whole outer surface.
+/// Sets the shares of the surface, the stretch and the stated error in `figures` for a part of the
+/// surface. The shares remain relative to the whole outer surface.
 /// @param counted  for each point: 1 if it belongs to the part
 void measure_part(const mesh::Surface& surface, const waterline::Body& body,
-                  const flow::SurfaceMap& map, const film::Profile& profile,
+                  const flow::SurfaceMap& map, const DipOptions& options,
                   const std::vector<char>& counted, DipFigures& figures);
 
 /// Returns the warnings about a dip with these figures.
 [[nodiscard]] Warnings warnings_of(const DipFigures& figures, const DipOptions& options);
 
 /// Returns only the warnings about strain, which say where the result cannot be trusted although
-/// the film arrives: theta_clamped, stretch_beyond_stokes, film_torn, film_wrinkled.
+/// the film arrives: theta_clamped, stretch_beyond_stokes, film_torn, film_wrinkled,
+/// tolerance_exceeded.
 [[nodiscard]] Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options);
 
 /// Returns only the warnings about the motion of the waterline: film_edge_reached, film_trapped,

@@ -61,6 +61,7 @@ Result<InkedFlow> ink_passes(const StokesPass& first, const FilmDrawing& draw, i
   DipOptions rough = options;
   rough.map = coarse(options.map);
   rough.map.make_tiles = true;
+  rough.states_error = false;
   InkedFlow out{{first.stokes}, {}, {}};
   HP_ASSIGN_OR_RETURN(out.map, trace_flow_map(first, out.flow.field, rough, context));
   for (int pass = 1; pass <= most_passes; ++pass) {

@@ -42,6 +42,10 @@ struct DipOptions {
   bool inertia = false;
   ink::InkField ink;         ///< printed on the film; used by the sheet only
   waterline::Motion motion;  ///< the measured horizontal path; empty: straight down
+  bool states_error = true;  ///< whether the map has a stated error
+  /// Where the stated error exceeds this, waterlines are added, at most kMostRefinements times.
+  std::optional<double> tolerance_mm;
+  static constexpr int kMostRefinements = 3;
   // Resolution: the defaults are both fast and accurate (tests/bench).
   double surface_edge_mm = 2;  ///< faces with longer edges are subdivided
   waterline::ScheduleOptions schedule;
@@ -60,6 +64,15 @@ struct InkPass {
   double moved_rms_mm = 0;
   double moved_most_mm = 0;  ///< the 99.9th percentile over the surface's points
   double moved_max_mm = 0;
+};
+
+/// Stated error of the film points that land on a part of the surface. Quantiles and shares by
+/// points.
+struct MapError {
+  double p50_mm = 0, p95_mm = 0;
+  double above_pixel_share = 0;  ///< above a pixel of the film image
+  double no_bound_share = 0;     ///< without a bound, because the film has torn before
+  double beyond_share = 0;       ///< above DipOptions::tolerance_mm
 };
 
 /// Figures of a dip for the report.
@@ -90,6 +103,8 @@ struct DipFigures {
   std::vector<waterline::LevelFace> level_faces;
   /// Median, 95th percentile and maximum of the stretch, where theta is not clamped.
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
+  std::optional<MapError> error;        ///< nullopt: none is stated, or no film arrives
+  double worst_error_immersion_mm = 0;  ///< where the stated error is largest
 };
 
 /// The result of a dip: the surface used in the computation and the film's landing on it.

@@ -58,10 +58,11 @@ Result<PlannedDip> stokes_dip(const mesh::Surface& surface, const PlanOptions& o
                               std::size_t k, const Context& context) {
   DipOptions dip = options_of(options, k);
   dip.map.make_tiles = false;
+  dip.states_error = false;
   HP_ASSIGN_OR_RETURN(const StokesPass pass, run_stokes_pass(surface, dip, context));
   HP_ASSIGN_OR_RETURN(flow::FlowMap map, trace_flow_map(pass, pass.stokes, dip, context));
   PlannedDip out{pass.X_FO, std::move(map.surface), {}};
-  out.figures = figures_of(pass, out.map, dip.profile);
+  out.figures = figures_of(pass, out.map, dip);
   return out;
 }
 
@@ -235,7 +236,7 @@ Result<DipPrint> print_dip(const Plan& plan, const PlanOptions& options, int num
   out.map = std::move(dip.map.surface);
   out.own = dip.figures;
   Pose X_FO = dip.X_FO;
-  measure_part(plan.surface, waterline::place(plan.surface, X_FO), out.map, options.dip.profile,
+  measure_part(plan.surface, waterline::place(plan.surface, X_FO), out.map, options_of(options, k),
                points_of(plan, number), out.own);
   add_of_dip(k, warnings_of_strain(out.own, options.dip), out.warnings);
   add_of_dip(k, warnings_of_motion(out.own.steps, {}, out.own.unsettled_mm), out.warnings);

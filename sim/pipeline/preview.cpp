@@ -18,6 +18,7 @@ DipOptions preview_of(DipOptions options) {
   options.mesh.tolerance_mm = 0.2;
   options.mesh.least_mm = 1;
   options.map.make_tiles = false;
+  options.states_error = false;
   return options;
 }
 

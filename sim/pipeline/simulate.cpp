@@ -83,6 +83,7 @@ Result<PlanDeviation> compare(const Planned& planned, const StokesPass& pass,
                               const SimulateOptions& options, const Context& context) {
   DipOptions dip = dip_options_of(options);
   dip.map.make_tiles = false;
+  dip.states_error = false;
   HP_ASSIGN_OR_RETURN(const flow::FlowMap map, trace_flow_map(pass, pass.stokes, dip, context));
   return deviation_from(*options.share, planned.division, planned.surface, pass.X_FO,
                         map.surface.stretch, context);
@@ -121,7 +122,7 @@ void measure_region(const mesh::Model& model, const Planned& planned,
   const double coverage = dip.figures.coverage;
   Pose X_FO = dip.X_FO;
   measure_part(dip.surface, waterline::place(dip.surface, X_FO), dip.map.surface,
-               options.dip.profile, is_own, dip.figures);
+               dip_options_of(options), is_own, dip.figures);
   dip.figures.coverage = coverage;
   dip.warnings = model.warnings;
   const auto add = [&dip](const Warnings& more) {
@@ -160,6 +161,7 @@ Result<SimulatedImages> draw(const Dip& dip, const Print& print, const SimulateO
   HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
   HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(views, dip.map.surface, context));
+  HP_ASSIGN_OR_RETURN(out.error, image::error_picture(views, dip.map.surface, context));
   if (dip.figures.wrinkled_share > 0) {
     HP_ASSIGN_OR_RETURN(out.wrinkles, image::wrinkle_picture(views, dip.map.surface, context));
   }

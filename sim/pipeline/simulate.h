@@ -39,6 +39,7 @@ struct SimulatedImages {
   std::optional<image::RgbImage> complete, mask;
   image::FilmMap film_map;  ///< landing points of the film
   image::RgbImage stretch;  ///< picture of the stretch on the object
+  image::RgbImage error;    ///< picture of the stated error on the object
   /// Picture of the film's compression; present only if the film wrinkles (film_wrinkled).
   std::optional<image::RgbImage> wrinkles;
   image::RgbImage predicted;  ///< picture of the object with its predicted look

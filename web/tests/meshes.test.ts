@@ -65,6 +65,15 @@ describe('a surface map', () => {
     expect(map.box.max).toEqual([10, 10, 0]);
   });
 
+  test('has a stated error if the file has one', () => {
+    expect(readSurfaceMap(bytesOf(text)).error_mm).toBeUndefined();
+    const stated = text
+      .replace('float stretch\n', 'float stretch\nproperty float error_mm\n')
+      .replaceAll(' 1 1\n', ' 1 1 0.02\n');
+    expect(readSurfaceMap(bytesOf(stated)).error_mm).toHaveLength(4);
+    expect(readSurfaceMap(bytesOf(stated)).error_mm?.[1]).toBeCloseTo(0.02);
+  });
+
   test('warnings select the triangles that they are about', () => {
     const torn = readSurfaceMap(surfaceMap([1, 1.5, 4]));
     const bare = readSurfaceMap(surfaceMap([1, NaN, 1]));

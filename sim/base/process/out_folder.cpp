@@ -21,12 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 23> kArtifacts = {
-    "combined.png", "complete.png",    "film.png",      "film_map.exr",  "film_profile.toml",
-    "landed.ply",   "landed.png",      "mask.png",      "model.glb",     "plan.json",
-    "plan.ply",     "placement.pdf",   "predicted.png", "print.pdf",     "print.png",
-    "print.tif",    "report.html",     "report.json",   "residuals.csv", "residuals.png",
-    "stretch.png",  "surface_map.ply", "wrinkles.png"};
+constexpr std::array<std::string_view, 24> kArtifacts = {
+    "combined.png",      "complete.png", "error.png",       "film.png",      "film_map.exr",
+    "film_profile.toml", "landed.ply",   "landed.png",      "mask.png",      "model.glb",
+    "plan.json",         "plan.ply",     "placement.pdf",   "predicted.png", "print.pdf",
+    "print.png",         "print.tif",    "report.html",     "report.json",   "residuals.csv",
+    "residuals.png",     "stretch.png",  "surface_map.ply", "wrinkles.png"};
 
 /// Names before the numbers of pictures, sheets, frames and dips.
 constexpr std::array<std::string_view, 7> kNumbered = {"complete-", "film-",    "frame-",   "mask-",

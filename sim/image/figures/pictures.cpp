@@ -18,6 +18,9 @@ namespace {
 /// At the poles of spheres stretch is in the hundreds and would use up the whole scale.
 constexpr double kMostStretch = 4;
 
+/// Upper end of the scale of the stated error: six pixels at 300 dpi.
+constexpr double kMostError_mm = 0.5;
+
 /// Colours of evenly increasing lightness, distinguishable with every kind of colour vision: evenly
 /// spaced control points, sRGB.
 constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
@@ -123,6 +126,26 @@ Result<RgbImage> wrinkle_picture(const ObjectViews& views, const flow::SurfaceMa
   };
   const Quantity least{"least stretch", map.least_stretch, 1, 0.1, at_corners};
   return quantity_picture(views, least, context);
+}
+
+Result<RgbImage> error_picture(const ObjectViews& views, const flow::SurfaceMap& map,
+                               const Context& context) {
+  const auto at_corners = [&](const flow::MappedTriangle& tile) {
+    const Eigen::Vector3i& v = views.surface.triangles[tile.triangle];
+    const Eigen::Vector3d around(map.error_mm[v[0]], map.error_mm[v[1]], map.error_mm[v[2]]);
+    std::array<double, 3> values{};
+    for (int i = 0; i < 3; ++i) {
+      const double value = tile.barycentric[i].cast<double>().dot(around);
+      values[i] = std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
+    }
+    return values;
+  };
+  std::vector<double> shown = map.error_mm;
+  for (double& value : shown) {
+    if (value > kMostError_mm) value = kMostError_mm;
+  }
+  const Quantity error{"error, mm", shown, 0, 0.1, at_corners, "not known"};
+  return quantity_picture(views, error, context);
 }
 
 Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,

@@ -42,6 +42,11 @@ struct Quantity {
 [[nodiscard]] Result<RgbImage> wrinkle_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
+/// Same as stretch_picture(), coloured by the stated error of the film points on the film, up to
+/// 0.5 mm; hatched where no bound is known.
+[[nodiscard]] Result<RgbImage> error_picture(const ObjectViews& views, const flow::SurfaceMap& map,
+                                             const Context& context);
+
 /// Draws the object with its predicted look: the film's colours where it lands, light grey
 /// elsewhere.
 [[nodiscard]] Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,

@@ -13,6 +13,18 @@
 namespace hydroprint::worker {
 namespace {
 
+/// Returns null if no error is stated.
+Json error_json(const std::optional<pipeline::MapError>& error) {
+  if (!error) return nullptr;
+  const auto bound = [](double error_mm) {
+    return std::isfinite(error_mm) ? Json(error_mm) : Json(nullptr);
+  };
+  return {{"p50_mm", bound(error->p50_mm)},
+          {"p95_mm", bound(error->p95_mm)},
+          {"above_pixel_share", error->above_pixel_share},
+          {"no_bound_share", error->no_bound_share}};
+}
+
 Json sections_json(const std::vector<waterline::SectionArea>& sections) {
   Json out = Json::array();
   for (const waterline::SectionArea& section : sections) {
@@ -61,6 +73,14 @@ void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
   stages.insert(stages.end(), more.begin(), more.end());
 }
 
+/// Returns the stages of the Stokes pass, which a tolerance may repeat.
+std::vector<Stage> first_pass(const FlowOptions& options) {
+  std::vector<Stage> out;
+  const int passes = options.tolerance_mm ? 1 + pipeline::DipOptions::kMostRefinements : 1;
+  for (int pass = 0; pass < passes; ++pass) append(out, {{"waterline", 1}, {"velocity", 9}});
+  return out;
+}
+
 /// @param is_planned  one dip of a plan
 std::vector<Stage> stages(const FlowOptions& options, bool is_simulation, bool is_planned) {
   const int passes = options.is_sheet() ? options.passes() : 0;
@@ -73,7 +93,7 @@ std::vector<Stage> stages(const FlowOptions& options, bool is_simulation, bool i
   if (!is_simulation && passes > 0) out.push_back(ink);
   out.push_back({"surface", 1});
   if (is_planned) append(out, {{"regions", 0.5}, {"blend", 1}});
-  append(out, {{"waterline", 1}, {"velocity", 9}});
+  append(out, first_pass(options));
   if (is_planned) append(out, {{"flow map", 10}, {"regions", 0.5}});
   if (is_simulation && passes > 0) {
     for (int pass = 0; pass < passes; ++pass) {
@@ -133,12 +153,13 @@ std::vector<Stage> predict_stages(const FlowOptions& options) {
 }
 
 std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips) {
-  const std::vector<Stage> flow = {{"waterline", 1}, {"velocity", 9}, {"flow map", 10}};
+  std::vector<Stage> flow = first_pass(options);
+  flow.push_back({"flow map", 10});
   std::vector<Stage> out = {{"inputs", 0.5}, {"reading", 4}, {"surface", 1}};
   for (std::size_t k = 0; k < dips; ++k) append(out, flow);
   append(out, {{"regions", 0.5}, {"blend", 1}, {"blend weights", 1}});
   for (std::size_t k = 0; k < dips; ++k) {
-    append(out, {{"waterline", 1}, {"velocity", 9}});
+    append(out, first_pass(options));
     const int passes = options.is_sheet() ? options.passes() : 0;
     for (int pass = 0; pass < passes; ++pass) {
       append(out, {{"flow map", 10}, {"film image", 2}, {"ink", 0.5}, {"sheet", 30}});
@@ -156,6 +177,7 @@ Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& repor
                       read_inked_dip(options.dip, options.ink_image, report, context));
   dip.film_model = options.film_model;
   dip.inertia = options.inertia;
+  dip.tolerance_mm = options.tolerance_mm;
   return dip;
 }
 
@@ -178,6 +200,7 @@ Json DipFindings::parameters(const FlowOptions& options, std::array<int, 2> film
               {"film_image_px", film_image_px},
               {"model", options.is_sheet() ? "sheet" : "stokes"},
               {"inertia", options.inertia},
+              {"tolerance_mm", options.tolerance_mm ? Json(*options.tolerance_mm) : Json(nullptr)},
               {"ink_passes", options.is_sheet() ? options.passes() : 0},
               {"artifacts", options.map_only ? "map" : "all"}});
   return out;
@@ -206,6 +229,7 @@ Json DipFindings::report(const FlowOptions& options, std::array<int, 2> film_ima
           {"wrinkled_share", f.wrinkled_share},
           {"torn_share", f.torn_share},
           {"stretch", stretch_json(f)},
+          {"error", error_json(f.error)},
           {"sheet_unsettled_mm", f.unsettled_mm},
           {"ink_passes", ink_passes_json(f.ink_passes)}};
 }

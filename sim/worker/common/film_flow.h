@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct FlowOptions {
   pipeline::FilmModel film_model = pipeline::FilmModel::kSheet;
   bool inertia = false;
   int ink_passes = 1;
-  std::filesystem::path ink_image;  ///< empty: no ink image
-  bool map_only = false;            ///< `--artifacts map`
+  std::filesystem::path ink_image;     ///< empty: no ink image
+  bool map_only = false;               ///< `--artifacts map`
+  std::optional<double> tolerance_mm;  ///< see pipeline::DipOptions
 
   /// Returns the number of passes that account for the image's own ink; 0 with an ink image, which
   /// replaces them.

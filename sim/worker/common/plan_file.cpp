@@ -95,6 +95,8 @@ Status take_film(const v1::Plan& plan, const InputFolder& inputs, v1::SimulateSp
         fmt::format("missing. The plan was made with {}; name that file", film.profile().name()));
   }
   if (!spec.has_dpi()) spec.set_dpi(plan.dpi());
+  if (!spec.has_tolerance_mm() && film.has_tolerance_mm())
+    spec.set_tolerance_mm(film.tolerance_mm());
   if (!spec.has_dip_speed_mm_per_s()) spec.set_dip_speed_mm_per_s(film.dip_speed_mm_per_s());
   if (spec.model() != v1::MODEL_UNSPECIFIED) return {};
   spec.set_model(film.model());

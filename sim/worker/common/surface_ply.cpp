@@ -77,7 +77,7 @@ std::string without_version(std::string_view header) {
 /// Properties of the vertices of a plan with this number of dips.
 std::string plan_properties(std::size_t dips) {
   std::string out = "property int dip\n";
-  for (const char* name : {"weight", "stretch"}) {
+  for (const char* name : {"weight", "stretch", "stretch_min"}) {
     for (std::size_t k = 1; k <= dips; ++k) out += fmt::format("property double {}_{}\n", name, k);
   }
   return out;
@@ -147,7 +147,8 @@ Status write_surface_map(const std::filesystem::path& path, const mesh::Surface&
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string bytes = header(surface.points.size(), surface.triangles.size(),
                              "property double film_x\nproperty double film_y\n"
-                             "property double contact_time\nproperty double stretch\n");
+                             "property double contact_time\nproperty double stretch\n"
+                             "property double stretch_min\nproperty double error_mm\n");
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     put(bytes, surface.points[i]);
     const bool reached = map.film_mm[i].allFinite();
@@ -155,6 +156,8 @@ Status write_surface_map(const std::filesystem::path& path, const mesh::Surface&
     put(bytes, reached ? map.film_mm[i].y() : kNone);
     put(bytes, reached ? map.contact_time_s[i] : kNone);
     put(bytes, reached ? map.stretch[i] : kNone);
+    put(bytes, reached ? map.least_stretch[i] : kNone);
+    put(bytes, reached && !map.error_mm.empty() ? map.error_mm[i] : kNone);
   }
   return write(path, surface.triangles, std::move(bytes));
 }
@@ -182,6 +185,7 @@ Status write_plan(const std::filesystem::path& path, const pipeline::Plan& plan)
     put(bytes, static_cast<std::int32_t>(plan.dip_at[i]));
     for (const auto& weights : plan.weights_at) put(bytes, weights[i]);
     for (const auto& one : plan.dips) put(bytes, one.map.stretch[i]);
+    for (const auto& one : plan.dips) put(bytes, one.map.least_stretch[i]);
   }
   return write(path, surface.triangles, std::move(bytes));
 }
@@ -202,7 +206,7 @@ Result<PlanSurface> read_plan_surface(const std::filesystem::path& path, std::si
   std::string expected = header(*points, *triangles, plan_properties(dips));
   if (without_version(top) != without_version(expected)) return refused();
   const std::size_t per_point =
-      3 * sizeof(double) + sizeof(std::int32_t) + 2 * dips * sizeof(double);
+      3 * sizeof(double) + sizeof(std::int32_t) + 3 * dips * sizeof(double);
   constexpr std::size_t kPerTriangle = 1 + 3 * sizeof(std::int32_t);
   if (file.size() != top.size() + *points * per_point + *triangles * kPerTriangle) return refused();
 
@@ -214,6 +218,7 @@ Result<PlanSurface> read_plan_surface(const std::filesystem::path& path, std::si
     bytes.take<std::int32_t>();
     for (std::size_t k = 0; k < dips; ++k) bytes.take<double>();
     for (auto& of_dip : out.stretch) of_dip.push_back(bytes.take<double>());
+    for (std::size_t k = 0; k < dips; ++k) bytes.take<double>();
   }
   for (std::size_t i = 0; i < *triangles; ++i) {
     if (bytes.take<std::uint8_t>() != 3) return refused();

@@ -13,8 +13,8 @@
 namespace hydroprint::worker {
 
 /// Writes surface_map.ply: for each point, x, y, z (O, mm), film_x, film_y (F, mm), contact_time
-/// (s) and stretch, as binary little-endian doubles, NaN where no film arrives; then the triangles.
-/// Returns the errors of image::write_artifact().
+/// (s), stretch, stretch_min and error_mm, as binary little-endian doubles, NaN where no film
+/// arrives; then the triangles. Returns the errors of image::write_artifact().
 [[nodiscard]] Status write_surface_map(const std::filesystem::path& path,
                                        const mesh::Surface& surface, const flow::SurfaceMap& map);
 
@@ -26,8 +26,9 @@ namespace hydroprint::worker {
 
 /// Writes plan.ply: for each point, x, y, z (O, mm), the dip to which it belongs (int, from 1; 0:
 /// none), then for each dip its weight, then for each dip the stretch of its film under Stokes
-/// flow, by which the surface is divided (NaN where no film arrives); then the triangles. Returns
-/// the errors of image::write_artifact().
+/// flow, by which the surface is divided, then for each dip the smaller singular value of that
+/// film's Jacobian (both NaN where no film arrives); then the triangles. Returns the errors of
+/// image::write_artifact().
 [[nodiscard]] Status write_plan(const std::filesystem::path& path, const pipeline::Plan& plan);
 
 /// The surface of a plan, and the stretch by which it was divided.

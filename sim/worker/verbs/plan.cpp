@@ -63,6 +63,7 @@ Status read_film(const v1::FilmSetup& film, const InputFolder& inputs, FlowOptio
   out.dip.profile = inputs.path(film.profile());
   if (film.has_dip_speed_mm_per_s()) out.dip.dip_speed_mm_per_s = film.dip_speed_mm_per_s();
   if (film.has_ink_passes()) out.ink_passes = film.ink_passes();
+  if (film.has_tolerance_mm()) out.tolerance_mm = film.tolerance_mm();
   return choose(out, film.model(), film.inertia(), v1::ARTIFACT_SET_ALL);
 }
 

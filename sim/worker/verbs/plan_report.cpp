@@ -1,6 +1,7 @@
 #include "sim/worker/verbs/plan_report.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <string>
 
 #include "hydroprint/v1/report.pb.h"
@@ -25,6 +26,14 @@ void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch,
   out.set_max(stretch->max);
 }
 
+void set_error(const std::optional<pipeline::MapError>& error, v1::PlanReport::MapError& out) {
+  if (!error) return;
+  if (std::isfinite(error->p50_mm)) out.set_p50_mm(error->p50_mm);
+  if (std::isfinite(error->p95_mm)) out.set_p95_mm(error->p95_mm);
+  out.set_above_pixel_share(error->above_pixel_share);
+  out.set_no_bound_share(error->no_bound_share);
+}
+
 void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
               v1::PlanReport& out) {
   const double area_mm2 = pipeline::surface_area_mm2(plan);
@@ -39,6 +48,7 @@ void set_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>&
     dip.set_area_mm2(region.area_mm2);
     dip.set_pieces(region.pieces);
     set_stretch(stretch_of(plan, prints, static_cast<int>(k) + 1), *dip.mutable_stretch());
+    set_error(prints[k].own.error, *dip.mutable_error());
   }
 }
 

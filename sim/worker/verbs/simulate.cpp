@@ -45,6 +45,7 @@ Result<SimulateOptions> read_options(v1::SimulateSpec spec, const InputFolder& i
   SimulateOptions out;
   HP_ASSIGN_OR_RETURN(out.plan, take_plan(inputs, spec));
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
+  if (spec.has_tolerance_mm()) out.flow.tolerance_mm = spec.tolerance_mm();
   HP_ASSIGN_OR_RETURN(out.paint, paint_options(spec, inputs));
   return out;
 }
@@ -153,6 +154,7 @@ std::vector<FileTask> Simulate::files(const pipeline::Simulation& simulation,
     return image::write_film_map_exr(path, images.film_map);
   });
   out.push_back(png_file("stretch.png", images.stretch, image::kScreenDpi, context));
+  out.push_back(png_file("error.png", images.error, image::kScreenDpi, context));
   if (images.wrinkles) {
     out.push_back(png_file("wrinkles.png", *images.wrinkles, image::kScreenDpi, context));
   }

@@ -245,8 +245,8 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   const std::string film = client->download(job.name() + "/artifacts/film.png");
   EXPECT_EQ(film.substr(0, 8), "\x89PNG\r\n\x1a\n");
-  for (const char* name :
-       {"surface_map.ply", "film_map.exr", "stretch.png", "predicted.png", "report.json"}) {
+  for (const char* name : {"surface_map.ply", "film_map.exr", "stretch.png", "error.png",
+                           "predicted.png", "report.json"}) {
     EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
   }
   EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false)

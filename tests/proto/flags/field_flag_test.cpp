@@ -31,7 +31,7 @@ TEST(FieldFlags, FieldsOfFlatMessagesAreAmongThoseOfTheSpec) {
                        "--mesh", "--texture", "--extra-files", "--scale", "--paint", "--project",
                        "--project-size-mm", "--project-turn-deg", "--immersions", "--film",
                        "--profile", "--dip-speed-mm-per-s", "--model", "--ink-passes", "--inertia",
-                       "--dpi", "--threads", "--blend-mm"}));
+                       "--tolerance-mm", "--dpi", "--threads", "--blend-mm"}));
 }
 
 TEST(FieldFlags, ValuesArriveInTheirMessages) {

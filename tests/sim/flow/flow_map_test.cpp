@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/sample/icosphere.h"
+#include "sim/velocity/quadratic_elements.h"
 #include "tests/sim/support/bodies.h"
 #include "tests/sim/support/dips.h"
 
@@ -48,6 +49,27 @@ TEST(FlowMap, IsEmptyBeyondTheDepthOfTheDip) {
     EXPECT_EQ(std::isnan(map.surface.film_mm[v].x()), dip.body.points_mm[v].z() > 12)
         << dip.body.points_mm[v].transpose();
   }
+}
+
+TEST(RestMap, GivesFilmBeyondItTheRestPositionOfTheNearestNode) {
+  DipSetting setting;
+  setting.film = testing::film_of("100x100");
+  setting.depth_mm = 20;
+  const DipField small = testing::solve_dip(sample::icosphere(15, 3), setting).field;
+  const DipField large = testing::solve_dip(sample::icosphere(30, 3), setting).field;
+  const std::size_t last = small.fields.size() - 1, other = large.fields.size() - 1;
+  // The film around the large sphere has a larger hole than that around the small one.
+  const RestMap known{last, large.fields[other].with(trace_back(large, other))};
+  const std::vector<Vector2d> rest_mm = trace_back(small, last, &known);
+  int beyond = 0;
+  for (std::size_t n = 0; n < rest_mm.size(); ++n) {
+    ASSERT_TRUE(rest_mm[n].allFinite()) << n;
+    const Vector2d place = velocity::place_of(small.fields[last].mesh(), n);
+    if (place.norm() > 20) continue;
+    ++beyond;
+    EXPECT_NEAR((rest_mm[n].normalized() - place.normalized()).norm(), 0, 0.2) << "another side";
+  }
+  EXPECT_GT(beyond, 20);
 }
 
 TEST(FlowMap, IsEmptyInACupMouthUp) {

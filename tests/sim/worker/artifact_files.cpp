@@ -18,9 +18,9 @@ Ply read_ply(const std::filesystem::path& path) {
   };
   ply.vertices.resize(count("element vertex "));
   ply.faces.resize(count("element face "));
-  EXPECT_EQ(bytes.size(), at + 56 * ply.vertices.size() + 13 * ply.faces.size());
-  std::memcpy(ply.vertices.data(), bytes.data() + at, 56 * ply.vertices.size());
-  at += 56 * ply.vertices.size();
+  EXPECT_EQ(bytes.size(), at + 72 * ply.vertices.size() + 13 * ply.faces.size());
+  std::memcpy(ply.vertices.data(), bytes.data() + at, 72 * ply.vertices.size());
+  at += 72 * ply.vertices.size();
   for (auto& face : ply.faces) {
     EXPECT_EQ(bytes[at], 3);
     std::memcpy(face.data(), bytes.data() + at + 1, 12);

@@ -11,7 +11,7 @@ namespace hydroprint::worker {
 /// Contents of surface_map.ply. A vertex has x, y, z, film_x, film_y, contact_time and stretch.
 struct Ply {
   std::string header;
-  std::vector<std::array<double, 7>> vertices;
+  std::vector<std::array<double, 9>> vertices;
   std::vector<std::array<std::int32_t, 3>> faces;
 };
 

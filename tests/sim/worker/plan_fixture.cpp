@@ -30,7 +30,7 @@ std::string header_of(std::size_t points, std::size_t triangles, std::size_t dip
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
       "property double x\nproperty double y\nproperty double z\nproperty int dip\n",
       points);
-  for (const char* name : {"weight", "stretch"}) {
+  for (const char* name : {"weight", "stretch", "stretch_min"}) {
     for (std::size_t k = 1; k <= dips; ++k) out += fmt::format("property double {}_{}\n", name, k);
   }
   return out + fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n",
@@ -66,6 +66,7 @@ PlanPly read_plan_ply(const std::filesystem::path& path, std::size_t dips) {
     point.dip = take<std::int32_t>(bytes, at);
     for (std::size_t k = 0; k < dips; ++k) point.weight.push_back(take<double>(bytes, at));
     for (std::size_t k = 0; k < dips; ++k) point.stretch.push_back(take<double>(bytes, at));
+    for (std::size_t k = 0; k < dips; ++k) point.stretch_min.push_back(take<double>(bytes, at));
   }
   EXPECT_EQ(bytes.size(), at + 13 * out.triangles);
   return out;

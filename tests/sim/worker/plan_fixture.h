@@ -16,7 +16,7 @@ namespace hydroprint::worker {
 struct PlanPoint {
   std::array<double, 3> xyz;
   int dip = 0;
-  std::vector<double> weight, stretch;
+  std::vector<double> weight, stretch, stretch_min;
 };
 
 /// Contents of plan.ply.

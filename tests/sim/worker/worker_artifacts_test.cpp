@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 TEST_F(Worker, SimulateWritesTheArtifactsOfTheContract) {
   const Ended ended = testing::run(simulate({"--texture", path("texture.png")}));
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(names_in(out()),
-            (std::set<std::string>{"film.png", "film_map.exr", "predicted.png", "report.json",
-                                   "stretch.png", "surface_map.ply", "wrinkles.png"}))
+  EXPECT_EQ(names_in(out()), (std::set<std::string>{"error.png", "film.png", "film_map.exr",
+                                                    "predicted.png", "report.json", "stretch.png",
+                                                    "surface_map.ply", "wrinkles.png"}))
       << "the film gathers at the top of the sphere, so there must be wrinkles.png, too";
   EXPECT_NE(ended.out.find(out()), std::string::npos);
   EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"out", "sphere.obj", "texture.png"}));
@@ -114,7 +114,8 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
   EXPECT_NE(ply.header.find("format binary_little_endian 1.0"), std::string::npos);
   EXPECT_NE(ply.header.find("property double x\nproperty double y\nproperty double z\n"
                             "property double film_x\nproperty double film_y\n"
-                            "property double contact_time\nproperty double stretch\n"),
+                            "property double contact_time\nproperty double stretch\n"
+                            "property double stretch_min\nproperty double error_mm\n"),
             std::string::npos);
   std::istringstream lines(obj);
   std::size_t index = 0;
@@ -127,7 +128,7 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
         << index;
     const bool under_water = expected.z() < -12 + 9 - 0.01;
     const bool above = expected.z() > -12 + 9 + 0.01;
-    for (int k = 3; k < 7; ++k) {
+    for (int k = 3; k < 9; ++k) {
       if (above) {
         EXPECT_TRUE(std::isnan(vertex[k])) << index;
       }

@@ -100,6 +100,10 @@ TEST_F(PlanWorker, PointsOfTheFileComeFirstWithWeightsThatSumToOne) {
     if (point.xyz[2] < -6) {
       EXPECT_EQ(point.weight[0], 1) << "beyond the width of the blend";
     }
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(std::isnan(point.stretch_min[k]), std::isnan(point.stretch[k]));
+      EXPECT_FALSE(point.stretch_min[k] > point.stretch[k]);
+    }
     EXPECT_TRUE(point.dip == 0 ||
                 std::isfinite(point.stretch[static_cast<std::size_t>(point.dip - 1)]));
   }

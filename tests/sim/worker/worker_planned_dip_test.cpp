@@ -93,9 +93,9 @@ TEST_F(PlannedDip, AtThePlannedPoseGivesThePlansFilm) {
   }
   std::set<std::string> found = names_in(out());
   found.erase("wrinkles.png");
-  const std::set<std::string> expected = {"complete.png", "film.png",       "film_map.exr",
-                                          "mask.png",     "predicted.png",  "report.json",
-                                          "stretch.png",  "surface_map.ply"};
+  const std::set<std::string> expected = {"complete.png", "error.png",   "film.png",
+                                          "film_map.exr", "mask.png",    "predicted.png",
+                                          "report.json",  "stretch.png", "surface_map.ply"};
   EXPECT_EQ(found, expected);
 }
 

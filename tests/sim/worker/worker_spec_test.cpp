@@ -82,6 +82,9 @@ TEST_F(BadSpec, ValuesOutOfRangeAreBadInput) {
   expect_bad_spec("simulate", mesh + R"("dpi": "NaN"})", {"dpi: "});
   expect_bad_spec("simulate", mesh + R"("inkPasses": 21})", {"ink_passes: 21 is out of range"});
   expect_bad_spec("simulate", mesh + R"("threads": 0})", {"threads: 0 is out of range"});
+  for (const char* tolerance : {"0", "0.0049", "-1", "\"NaN\""}) {
+    expect_bad_spec("simulate", mesh + "\"toleranceMm\": " + tolerance + "}", {"tolerance_mm: "});
+  }
   expect_bad_spec("simulate", mesh + R"("film": "A5"})", {"film: "});
   expect_bad_spec("simulate", mesh + R"("inertia": true, "model": "MODEL_STOKES"})", {"inertia: "});
   expect_bad_spec("fit", R"({"mesh": {"name": "sphere.obj"}, "points": {"name": "sphere.obj"},

@@ -12,6 +12,8 @@ export interface SurfaceMap {
   contact_s: Float32Array;
   /** Largest principal stretch; 1 at rest. */
   stretch: Float32Array;
+  /** Stated error of the place on the film, mm; Infinity where no bound is known. Undefined in results of older builds. */
+  error_mm: Float32Array | undefined;
   /** Bounding box, mm. */
   box: { min: readonly [number, number, number]; max: readonly [number, number, number] };
   contactMax_s: number;
@@ -33,7 +35,8 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
   const box = boxOf({ positions, indices });
   let contactMax_s = 0;
   for (const t of contact_s) if (t > contactMax_s) contactMax_s = t;
-  return { positions, indices, film_mm, contact_s, stretch, box, contactMax_s };
+  const error_mm = columnsOf(vertex, ['error_mm']);
+  return { positions, indices, film_mm, contact_s, stretch, error_mm, box, contactMax_s };
 }
 
 /** Returns the indices of the triangles that a warning is about; empty if it is not about parts of the surface. */

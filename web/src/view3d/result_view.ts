@@ -1,4 +1,4 @@
-/** 3D view of the result of a dip: predicted appearance, stretch of the film, or contact time. */
+/** 3D view of the result of a dip: predicted appearance, stretch of the film, stated error, or contact time. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -22,7 +22,7 @@ import type { Quaternion, Vec3 } from '../model/pose';
 import type { SurfaceMap } from '../model/surface_map';
 import { Stage, type Side } from './stage';
 
-export type Mode = 'predicted' | 'stretch' | 'contact';
+export type Mode = 'predicted' | 'stretch' | 'error' | 'contact';
 
 /** Pose of the object at first contact: the API's X_FO, with z such that the object touches the water. */
 export interface Start {

@@ -25,6 +25,8 @@ pipeline::Plan small_plan() {
   out.dips.resize(2);
   out.dips[0].map.stretch = {1, 1.25, kNone, 3};
   out.dips[1].map.stretch = {kNone, 2, 1.5, 1};
+  out.dips[0].map.least_stretch = {1, 0.75, kNone, 0.5};
+  out.dips[1].map.least_stretch = {kNone, 1, 0.5, 1};
   out.dip_at = {1, 1, 2, 2};
   out.weights_at = {{1, 0.75, 0, 0}, {0, 0.25, 1, 1}};
   return out;

@@ -47,6 +47,9 @@ export function startOf(results: Results): Start | undefined {
 const tearOf = (results: Results): number =>
   results.report.value?.parameters?.profile?.tear_stretch ?? 3;
 
+/** Scale of the stated error on the film, mm; about a pixel at 300 dpi is in its middle. */
+const kError: Scale = { map: 'viridis', min: 0.01, max: 1, log: true };
+
 export function ObjectViewer({ results, pointed, onView }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const [view, setView] = useState<ResultView>();
@@ -102,6 +105,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
     if (!view || !map) return;
     if (mode === 'predicted') view.showPredicted();
     if (mode === 'stretch') view.showValues(map.stretch, stretch);
+    if (mode === 'error' && map.error_mm) view.showValues(map.error_mm, kError);
     if (mode === 'contact') view.showContact(shown_s, contact);
   }, [view, mode, shown_s]);
 
@@ -133,6 +137,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
           choices={[
             { value: 'predicted', label: 'Predicted' },
             { value: 'stretch', label: 'Stretch' },
+            ...(map?.error_mm ? [{ value: 'error' as const, label: 'Error' }] : []),
             { value: 'contact', label: 'Contact time' },
           ]}
         />
@@ -153,6 +158,15 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
           beyond="the film tears"
         />
       )}
+      {mode === 'error' && (
+        <Legend
+          title="Stated error of the place on the film"
+          unit="mm"
+          scale={kError}
+          values={[0.01, 0.03, 0.1, 0.3, 1]}
+          beyond="not known"
+        />
+      )}
       {mode === 'contact' && map && (
         <>
           <Player end_s={end_s} time_s={shown_s} onTime={setTime} />
@@ -169,6 +183,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
 const kWords: Record<Mode, string> = {
   predicted: 'as predicted after the dip',
   stretch: 'coloured by the stretch of the film',
+  error: 'coloured by the stated error of the place on the film',
   contact: 'coloured by contact time',
 };
 

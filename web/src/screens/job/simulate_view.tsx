@@ -62,6 +62,18 @@ export function SimulateView({ results }: { results: Results }) {
                   'Stretch (maximum)',
                   formatFactor(report.stretch.max),
                 ],
+                !!report.error && [
+                  'Error on the film (median)',
+                  report.error.p50_mm === null ? 'not known' : formatMm(report.error.p50_mm, 2),
+                ],
+                !!report.error && [
+                  'Error on the film (95th percentile)',
+                  report.error.p95_mm === null ? 'not known' : formatMm(report.error.p95_mm, 2),
+                ],
+                !!report.error && [
+                  'Points off by more than a pixel',
+                  formatShare(report.error.above_pixel_share),
+                ],
                 ['Dip speed', `${report.parameters?.dip_speed_mm_per_s ?? '–'} mm/s`],
                 ['Film', report.parameters?.film?.name ?? '–'],
                 [
