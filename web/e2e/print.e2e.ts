@@ -62,6 +62,9 @@ test('a maker drops a model, turns it and submits; the film image equals the wor
   await page.getByRole('radio', { name: 'Stretch' }).check();
   await page.locator('.warnings button').first().click();
   await look(person, 'job-stretch');
+  await page.getByRole('radio', { name: 'Error' }).check();
+  await page.getByText('Stated error of the place on the film [mm]').waitFor();
+  await look(person, 'job-error');
   await page.getByRole('radio', { name: 'Contact time' }).check();
   await page.getByLabel('Time since first contact').fill('3');
   await look(person, 'job-contact');
