@@ -135,11 +135,13 @@ void follow_back(const DipField& dip, const std::vector<std::size_t>& order, std
   std::size_t most = 0;
   for (const BackPath& path : paths) most = std::max(most, path.after);
   for (std::size_t k = most; k-- > first;) {
+    const bool knows_tears = k < dip.is_torn.size() && !dip.is_torn[k].empty();
     int triangle = -1;
     for (const std::size_t i : order) {
       BackPath& path = paths[i];
-      if (path.after == k + 1 && !path.is_lost())
-        step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
+      if (path.after != k + 1 || path.is_lost()) continue;
+      step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
+      if (knows_tears && triangle >= 0 && dip.is_torn[k][triangle] != 0) path.has_torn = true;
     }
   }
 }

@@ -32,6 +32,7 @@ struct BackPath {
   Eigen::Vector2d later_velocity = Eigen::Vector2d::Zero();  ///< velocity one step later in the dip
   double later_span_mm = 0;
   bool keeps_on = false;  ///< where there is no film, keeps its velocity instead of being lost
+  bool has_torn = false;  ///< the film is torn at a waterline that the path has passed
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }

@@ -61,14 +61,15 @@ std::vector<double> spread(const waterline::Body& body, const std::vector<char>&
   return error_mm;
 }
 
-/// Sets the stated error of the film points: infinite where there is film, but no estimate.
+/// Sets the stated error of the film points: infinite where there is film, but no estimate, and
+/// behind tears, where the film's thickness and thus its motion have no unique solution.
 void state_error(const mesh::Surface& surface, const TracedBack& traced, const MapOptions& options,
                  SurfaceMap& map) {
   const double swelling = options.swelling.minCoeff();
   for (const int w : surface.weld) {
     const double stated_mm = std::hypot(options.error_factor * traced.error_mm[w], kMeshError_mm);
     const bool is_bare = std::isnan(traced.film_mm[w].x());
-    const bool is_known = !std::isnan(stated_mm);
+    const bool is_known = !std::isnan(stated_mm) && traced.has_torn[w] == 0;
     map.error_mm.push_back(is_bare ? kNaN : is_known ? stated_mm / swelling : HUGE_VAL);
   }
 }

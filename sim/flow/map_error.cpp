@@ -123,7 +123,10 @@ void trace(const Levels& levels, const std::vector<Landing>& landings,
   for (Paths* paths : {&whole, &halved, &quartered}) come_to_rest(paths->dip, paths->all);
   first.compare(whole, halved, at);
   second.compare(halved, quartered);
-  for (std::size_t p = 0; p < part.size(); ++p) out.film_mm[part[p]] = whole.all[p].point_mm;
+  for (std::size_t p = 0; p < part.size(); ++p) {
+    out.film_mm[part[p]] = whole.all[p].point_mm;
+    out.has_torn[part[p]] = whole.all[p].has_torn ? 1 : 0;
+  }
   for (std::size_t k = 0; k < judged.size(); ++k)
     out.error_mm[judged[k]] = error_mm(first.square_mm2(k), second.square_mm2(k));
 }
@@ -137,6 +140,7 @@ Result<TracedBack> trace_back_with_error(const DipField& dip, const std::vector<
   const Levels levels{dip};
   TracedBack out;
   out.film_mm.resize(landings.size());
+  out.has_torn.resize(landings.size(), 0);
   out.error_mm.resize(landings.size(), std::numeric_limits<double>::quiet_NaN());
   HP_RETURN_IF_ERROR(for_each_part(landings, stage, context, [&](const Part& part) {
     trace(levels, landings, is_judged, part, out);

@@ -22,6 +22,7 @@ struct TracedBack {
   /// it. NaN where no film arrives, or none through every second waterline, and where a landing is
   /// not judged.
   std::vector<double> error_mm;
+  std::vector<char> has_torn;  ///< film that was torn at an earlier waterline (DipField::is_torn)
 };
 
 /// Traces landings like trace_back(), and also through every second and every fourth waterline, and

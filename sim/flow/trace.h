@@ -20,6 +20,9 @@ struct DipField {
   double depth_mm = 0;                          ///< immersion at the end of the dip
   std::vector<double> immersion_mm;             ///< increasing
   std::vector<velocity::VelocityField> fields;  ///< one per immersion
+  /// For each field and each triangle of its film mesh, whether the film is torn there; empty
+  /// without a sheet, whose velocity depends on the film's thickness, and where not yet known.
+  std::vector<std::vector<char>> is_torn = {};
 };
 
 /// Traces a landing back to the point of the film at rest (the inverse map of section 4.5). Follows

@@ -108,10 +108,14 @@ void measure_error(const flow::SurfaceMap& map, const std::vector<char>& counted
   const auto share_above = [&](double limit_mm) {
     return static_cast<double>(errors.end() - std::ranges::upper_bound(errors, limit_mm)) / count;
   };
-  const auto quantile = [&](double q) { return errors[static_cast<std::size_t>(q * (count - 1))]; };
-  figures.error = MapError{quantile(0.5), quantile(0.95), share_above(options.map.pixel_mm),
-                           share_above(std::numeric_limits<double>::max()),
-                           options.tolerance_mm ? share_above(*options.tolerance_mm) : 0};
+  const double no_bound_share = share_above(std::numeric_limits<double>::max());
+  const auto quantile = [&](double q) {
+    const double bounded = std::round((1 - no_bound_share) * count);
+    return bounded < 1 ? HUGE_VAL : errors[static_cast<std::size_t>(q * (bounded - 1))];
+  };
+  figures.error =
+      MapError{quantile(0.5), quantile(0.95), share_above(options.map.pixel_mm), no_bound_share,
+               options.tolerance_mm ? share_above(*options.tolerance_mm) : 0};
 }
 
 std::string at_immersion(double immersion_mm) {

@@ -69,10 +69,10 @@ struct InkPass {
 /// Stated error of the film points that land on a part of the surface. Quantiles and shares by
 /// points.
 struct MapError {
-  double p50_mm = 0, p95_mm = 0;
-  double above_pixel_share = 0;  ///< above a pixel of the film image
-  double no_bound_share = 0;     ///< without a bound, because the film has torn before
-  double beyond_share = 0;       ///< above DipOptions::tolerance_mm
+  double p50_mm = 0, p95_mm = 0;  ///< of the points with a bound; infinite if there are none
+  double above_pixel_share = 0;   ///< above a pixel of the film image
+  double no_bound_share = 0;      ///< without a bound, because the film has torn before
+  double beyond_share = 0;        ///< above DipOptions::tolerance_mm
 };
 
 /// Figures of a dip for the report.

@@ -150,24 +150,26 @@ Result<std::vector<Solved>> solve_at(const waterline::ScheduleOptions& schedule,
 }
 
 /// Sets the field of a pass to that of the waterlines that were not skipped.
-void set_field(const std::vector<Solved>& solved, StokesPass& out) {
+void set_field(std::vector<Solved> solved, StokesPass& out) {
   out.stokes.immersion_mm.clear();
   out.stokes.fields.clear();
   out.passed_over_mm.clear();
-  for (const Solved& line : solved) {
+  for (Solved& line : solved) {
     if (!line.field) {
       out.passed_over_mm.push_back(line.immersion_mm);
       continue;
     }
     out.stokes.immersion_mm.push_back(line.immersion_mm);
-    out.stokes.fields.push_back(*line.field);
+    out.stokes.fields.push_back(std::move(*line.field));
   }
 }
 
 /// Returns immersions at which more waterlines are needed for the tolerance; empty if none are.
-Result<std::vector<double>> depths_to_add(const flow::DipField& field,
-                                          const flow::Landings& landings, double factor,
-                                          double tolerance_mm, const Context& context) {
+Result<std::vector<double>> depths_to_add(const StokesPass& pass, const DipOptions& options,
+                                          const Context& context) {
+  const flow::DipField& field = pass.stokes;
+  const double factor = error_factor(options.film_model), tolerance_mm = *options.tolerance_mm;
+  const flow::Landings landings(pass.body, options.motion);
   const std::vector<flow::Landing>& of_points = landings.of_points();
   HP_ASSIGN_OR_RETURN(const flow::TracedBack traced,
                       flow::trace_back_with_error(
@@ -206,16 +208,14 @@ Result<StokesPass> run_stokes_pass(mesh::Surface surface, const DipOptions& opti
   out.X_FO = options.X_FO.value_or(waterline::centred_pose(out.surface));
   out.body = waterline::place(out.surface, out.X_FO);
   out.stokes.outline = floating(options.outline, options.profile.swelling);
-  const flow::Landings landings(out.body, options.motion);
   waterline::ScheduleOptions schedule = options.schedule;
   std::vector<Solved> solved;
   for (int round = 0;; ++round) {
     HP_ASSIGN_OR_RETURN(solved, solve_at(schedule, std::move(solved), options, out, context));
-    set_field(solved, out);
-    if (!options.tolerance_mm || round == DipOptions::kMostRefinements) break;
-    const double factor = error_factor(options.film_model);
-    HP_ASSIGN_OR_RETURN(const auto added, depths_to_add(out.stokes, landings, factor,
-                                                        *options.tolerance_mm, context));
+    const bool is_last = !options.tolerance_mm || round == DipOptions::kMostRefinements;
+    set_field(is_last ? std::move(solved) : solved, out);
+    if (is_last) break;
+    HP_ASSIGN_OR_RETURN(const auto added, depths_to_add(out, options, context));
     if (added.empty()) break;
     schedule.added_mm.insert(schedule.added_mm.end(), added.begin(), added.end());
   }
@@ -238,16 +238,18 @@ Result<sheet::SheetFlow> sheet_field(const flow::DipField& first, const ink::Ink
           ? profile.thickness_mm / (profile.drag_length_mm * profile.drag_length_mm)
           : 0;
   if (options.inertia) {
-    const sheet::InertialOptions inertial = {{profile.young_modulus_mpa, profile.poisson_ratio},
-                                             profile.density_kg_per_m3,
-                                             options.dip_speed_mm_per_s,
-                                             drag_per_mm};
+    sheet::InertialOptions inertial = {{profile.young_modulus_mpa, profile.poisson_ratio},
+                                       profile.density_kg_per_m3,
+                                       options.dip_speed_mm_per_s,
+                                       drag_per_mm};
+    inertial.tear_stretch = profile.tear_stretch;
     HP_ASSIGN_OR_RETURN(flow::DipField field,
                         sheet::inertial_flow(first, rest_thickness, inertial, context));
     return sheet::SheetFlow{std::move(field)};
   }
   sheet::SheetOptions sheet = options.sheet;
   sheet.drag_per_mm = drag_per_mm;
+  sheet.tear_stretch = profile.tear_stretch;
   return sheet::sheet_flow(first, rest_thickness, sheet, context);
 }
 

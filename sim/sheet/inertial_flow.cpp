@@ -87,11 +87,13 @@ Result<flow::DipField> inertial_flow(flow::DipField first, const RestThickness& 
   HP_CHECK(options.most_passes >= 1);
   flow::DipField dip = std::move(first);
   const std::size_t count = dip.fields.size();
+  dip.is_torn.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     for (int pass = 1; pass <= options.most_passes; ++pass) {
       HP_RETURN_IF_ERROR(check_cancelled(context));
-      HP_ASSIGN_OR_RETURN(Velocities nodes,
-                          step(dip, k, thickness_mm(dip, k, rest_thickness), options));
+      FloatingFilm film = floating_film(dip, k, rest_thickness, options.tear_stretch);
+      HP_ASSIGN_OR_RETURN(Velocities nodes, step(dip, k, film.thickness_mm, options));
+      dip.is_torn[k] = std::move(film.is_torn);
       const double move_mm = span_mm(dip, k) * rms_change(nodes, dip.fields[k].nodes());
       dip.fields[k] = dip.fields[k].with(std::move(nodes));
       if (move_mm < options.tolerance_mm) break;

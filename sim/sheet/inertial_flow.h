@@ -24,6 +24,7 @@ struct InertialOptions {
   /// less than this.
   double tolerance_mm = 0.001;
   int most_passes = 6;
+  double tear_stretch = 3;  ///< see film::Profile
 };
 
 /// Computes the dip of the viscous sheet with inertia by Algorithm 1 (section 4.3): at each
@@ -35,7 +36,7 @@ struct InertialOptions {
 /// forgets its velocity within a fraction of a step (README.md).
 /// @param first  any velocities, per unit of dip speed, on the dip's film meshes, with the right
 ///               values at the edges; Stokes flow is a good start
-/// @return kInternal if a step does not converge even after it is shortened
+/// @return with its tears; kInternal if a step does not converge even after it is shortened
 [[nodiscard]] Result<flow::DipField> inertial_flow(flow::DipField first,
                                                    const RestThickness& rest_thickness,
                                                    const InertialOptions& options,

@@ -81,17 +81,22 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
   for (int sweep = 1;; ++sweep) {
     const std::size_t begin = progress.first();
     std::vector<VelocityField> next(count);
+    std::vector<std::vector<char>> torn(count);
     HP_RETURN_IF_ERROR(parallel_for(context, {}, count - begin, [&](std::size_t task) -> Status {
       const std::size_t i = begin + task, k = first + i;
       const VelocityField& before = flow.field.fields[k];
       if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
-      HP_ASSIGN_OR_RETURN(auto nodes,
-                          sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness, known)));
+      FloatingFilm film = floating_film(flow.field, k, rest_thickness, options.tear_stretch, known);
+      HP_ASSIGN_OR_RETURN(auto nodes, sheets[i]->solve(film.thickness_mm));
+      torn[i] = std::move(film.is_torn);
       progress.moved_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());
       next[i] = before.with(std::move(nodes));
       return {};
     }));
-    for (std::size_t i = begin; i < count; ++i) flow.field.fields[first + i] = std::move(next[i]);
+    for (std::size_t i = begin; i < count; ++i) {
+      flow.field.fields[first + i] = std::move(next[i]);
+      flow.field.is_torn[first + i] = std::move(torn[i]);
+    }
     flow.sweeps = std::max(flow.sweeps, sweep);
     const double moved_mm = progress.sum_mm();
     if (sweep == 1) {
@@ -115,6 +120,7 @@ Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thi
   HP_CHECK(first.immersion_mm.size() == first.fields.size());
   SheetFlow flow{std::move(first), 0};
   const std::size_t count = flow.field.fields.size();
+  flow.field.is_torn.resize(count);
   // Film is traced back only to the previous window, not to the start of the dip.
   std::optional<flow::RestMap> known;
   for (std::size_t k = 0; k < count; k += kWindow) {

@@ -11,12 +11,13 @@ struct SheetOptions {
   double drag_per_mm = 0;  ///< see Sheet in sheet.h
   /// Sweeps end when the next sweep would move the film by less than this.
   double tolerance_mm = 0.003;
-  int most_sweeps = 6;  ///< at least 2
+  int most_sweeps = 6;      ///< at least 2
+  double tear_stretch = 3;  ///< see film::Profile
 };
 
 struct SheetFlow {
-  flow::DipField field;
-  int sweeps = 0;  ///< largest number of sweeps of any group of waterlines
+  flow::DipField field;  ///< with its tears
+  int sweeps = 0;        ///< largest number of sweeps of any group of waterlines
   /// Displacement in the last sweep of groups of waterlines that did not converge, where film tears
   /// or folds (rms over the film of a waterline, summed over the dip).
   double unsettled_mm = 0;

@@ -1,5 +1,6 @@
 #include "sim/sheet/thickness.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -53,25 +54,45 @@ double mean_thickness_mm(const std::array<Vector2d, 6>& node, double twice_area_
   return volume / area;
 }
 
+/// Returns whether a triangle of film is torn or folded. The stretch is the inverse of that of the
+/// linear map from the triangle to its corners at rest.
+bool is_torn(const std::array<Vector2d, 6>& rest, const std::array<Vector2d, 3>& corner,
+             double tear_stretch) {
+  Eigen::Matrix2d now, before;
+  now << corner[1] - corner[0], corner[2] - corner[0];
+  before << rest[1] - rest[0], rest[2] - rest[0];
+  const Eigen::Matrix2d to_rest = before * now.inverse();
+  // The smaller singular value of a 2 x 2 matrix, from the norms of its two conformal parts.
+  const double a = to_rest(0, 0), b = to_rest(0, 1), c = to_rest(1, 0), d = to_rest(1, 1);
+  const double least = 0.5 * (std::hypot(a + d, c - b) - std::hypot(a - d, c + b));
+  return !(least * tear_stretch >= 1);
+}
+
 }  // namespace
 
-std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
-                                 const RestThickness& rest_thickness, const flow::RestMap* known) {
+FloatingFilm floating_film(const flow::DipField& dip, std::size_t k,
+                           const RestThickness& rest_thickness, double tear_stretch,
+                           const flow::RestMap* known) {
   HP_CHECK(k < dip.fields.size());
   const velocity::FilmMesh& mesh = dip.fields[k].mesh();
   const std::vector<Vector2d> rest = flow::trace_back(dip, k, known);
-  std::vector<double> thickness(mesh.triangles.size(), 0);
+  FloatingFilm out{std::vector<double>(mesh.triangles.size(), 0),
+                   std::vector<char>(mesh.triangles.size(), 0)};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<Vector2d, 6> node;
     const auto nodes = velocity::nodes_of(mesh, t);
+    const std::array<Vector2d, 3> corner = {velocity::place_of(mesh, nodes[0]),
+                                            velocity::place_of(mesh, nodes[1]),
+                                            velocity::place_of(mesh, nodes[2])};
     std::transform(nodes.begin(), nodes.end(), node.begin(), [&](int n) { return rest[n]; });
     const double rest_area = twice_area(node);
     double ratio = rest_area / velocity::twice_area_mm2(mesh, t);
     if (std::isnan(ratio)) ratio = 1;
-    thickness[t] = std::clamp(ratio, 1 / kMostAreaRatio, kMostAreaRatio) *
-                   mean_thickness_mm(node, rest_area, rest_thickness);
+    out.thickness_mm[t] = std::clamp(ratio, 1 / kMostAreaRatio, kMostAreaRatio) *
+                          mean_thickness_mm(node, rest_area, rest_thickness);
+    out.is_torn[t] = is_torn(node, corner, tear_stretch) ? 1 : 0;
   }
-  return thickness;
+  return out;
 }
 
 }  // namespace hydroprint::sheet

@@ -194,14 +194,30 @@ struct Errors {
   std::vector<double> true_mm, stated_mm;
 
   [[nodiscard]] double quantile_mm(double q) const {
+    if (true_mm.empty()) return 0;
     std::vector<double> sorted = true_mm;
     std::ranges::sort(sorted);
     return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+  }
+  /// Returns those with a bound, or those without, because their film had torn.
+  [[nodiscard]] Errors bounded(bool is_bounded) const {
+    Errors out;
+    for (std::size_t i = 0; i < true_mm.size(); ++i) {
+      if (std::isfinite(stated_mm[i]) != is_bounded) continue;
+      out.true_mm.push_back(true_mm[i]);
+      out.stated_mm.push_back(stated_mm[i]);
+    }
+    return out;
   }
   [[nodiscard]] double covered() const {
     double out = 0;
     for (std::size_t i = 0; i < true_mm.size(); ++i) out += true_mm[i] <= stated_mm[i] ? 1 : 0;
     return out / static_cast<double>(true_mm.size());
+  }
+  [[nodiscard]] double share_above(double limit_mm) const {
+    if (true_mm.empty()) return 0;
+    const auto count = std::ranges::count_if(true_mm, [&](double e) { return e > limit_mm; });
+    return static_cast<double>(count) / static_cast<double>(true_mm.size());
   }
 };
 
@@ -228,15 +244,23 @@ void compare(const Body& body, const std::string& model, const DipOptions& optio
   before.states_error = false;
   const Run now = run(body, options), then = run(body, before);
   const Errors errors = errors_of(now.dip, reference, tear);
-  std::vector<double> stated_mm = errors.stated_mm;
+  const Errors bounded = errors.bounded(true), unbounded = errors.bounded(false);
+  std::vector<double> stated_mm = bounded.stated_mm;
   std::ranges::sort(stated_mm);
   print(body.name + "-" + model,
         {{"p50_mm", errors.quantile_mm(0.5)},
          {"p95_mm", errors.quantile_mm(0.95)},
          {"p99_mm", errors.quantile_mm(0.99)},
          {"p95_before_mm", errors_of(then.dip, reference, tear).quantile_mm(0.95)},
-         {"covered", errors.covered()},
+         {"bounded_p50_mm", bounded.quantile_mm(0.5)},
+         {"bounded_p95_mm", bounded.quantile_mm(0.95)},
+         {"covered", bounded.covered()},
          {"stated_p50_mm", stated_mm[stated_mm.size() / 2]},
+         {"no_bound", static_cast<double>(unbounded.true_mm.size()) /
+                          static_cast<double>(errors.true_mm.size())},
+         {"no_bound_p95_mm", unbounded.quantile_mm(0.95)},
+         {"above_1mm", errors.share_above(1)},
+         {"no_bound_above_1mm", unbounded.share_above(1)},
          {"cpu_s", now.cpu_s},
          {"cpu_before_s", then.cpu_s},
          {"waterlines", now.dip.figures.steps}});

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "sim/flow/flow_map.h"
+#include "sim/flow/map_error.h"
 #include "sim/pipeline/dip.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
@@ -191,7 +192,7 @@ TEST(SheetFlow, KeepsTheVolumeOfTheFilm) {
 
   const std::size_t last = field.fields.size() - 1;
   const velocity::FilmMesh& mesh = field.fields[last].mesh();
-  const std::vector<double> h = thickness_mm(field, last, rest);
+  const std::vector<double> h = floating_film(field, last, rest, 3).thickness_mm;
   double floating = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3i& v = mesh.triangles[t];
@@ -245,6 +246,57 @@ TEST(SheetFlow, IsMirroredWithTheBodyAndItsInk) {
   };
   const auto right = map_of(1), left = map_of(-1);
   for (std::size_t i = 0; i < right.size(); ++i) EXPECT_LT((right[i] - left[i]).norm(), 0.02);
+}
+
+/// Returns for each landing whether its film had torn, in a sheet with this limit.
+std::vector<char> torn_before(const flow::DipField& field,
+                              const std::vector<flow::Landing>& landings) {
+  const std::vector<char> none(landings.size(), 0);
+  return flow::trace_back_with_error(field, landings, none, {}, two_threads()).value().has_torn;
+}
+
+/// Larger principal stretch of the exact map of a centred sphere at a contact angle.
+double exact_stretch(double radius_mm, double vat_mm, double theta) {
+  const double step = 1e-4;
+  const double film_mm = exact::film_radius_mm(radius_mm, vat_mm, theta);
+  const double along_mm = exact::film_radius_mm(radius_mm, vat_mm, theta + step) - film_mm;
+  return std::max(radius_mm * std::sin(theta) / film_mm, radius_mm * step / along_mm);
+}
+
+TEST(SheetFlow, TearsRoundASphereWhereTheExactStretchExceedsTheLimit) {
+  const SolvedDip dip = sphere_in_a_vat(40, 105, 121);
+  SheetOptions options;
+  options.tear_stretch = exact_stretch(40, 105, 90 * kDegree);
+  const auto sheet = sheet_flow(dip.field, uniform, options, two_threads()).value();
+  std::vector<flow::Landing> whole, torn;
+  for (int degrees = 5; degrees <= 120; degrees += 5) {
+    const double stretch = exact_stretch(40, 105, degrees * kDegree);
+    for (const double azimuth : {0.4, 2.2, 4.9}) {
+      if (stretch < 0.93 * options.tear_stretch)
+        whole.push_back(on_sphere(40, degrees * kDegree, azimuth));
+      if (stretch > 1.07 * options.tear_stretch)
+        torn.push_back(on_sphere(40, degrees * kDegree, azimuth));
+    }
+  }
+  ASSERT_GT(whole.size(), 20);
+  ASSERT_GT(torn.size(), 6);
+  for (const char is_torn : torn_before(sheet.field, whole)) EXPECT_EQ(is_torn, 0);
+  for (const char is_torn : torn_before(sheet.field, torn)) EXPECT_EQ(is_torn, 1);
+}
+
+TEST(SheetFlow, FilmThatToreOnceStaysTorn) {
+  const SolvedDip dip = sphere_in_a_vat(40, 105, 121);
+  flow::DipField field = dip.field;
+  for (const velocity::VelocityField& f : field.fields)
+    field.is_torn.emplace_back(f.mesh().triangles.size(), 0);
+  const std::size_t k = field.fields.size() / 2;
+  std::ranges::fill(field.is_torn[k], 1);
+  std::vector<flow::Landing> landings;
+  for (int degrees = 5; degrees <= 120; degrees += 5)
+    landings.push_back(on_sphere(40, degrees * kDegree, 1.1));
+  const auto torn = torn_before(field, landings);
+  for (std::size_t i = 0; i < landings.size(); ++i)
+    EXPECT_EQ(torn[i] != 0, landings[i].immersion_mm > field.immersion_mm[k]) << i;
 }
 
 TEST(SheetFlow, IsBitIdenticalForAnyNumberOfThreads) {

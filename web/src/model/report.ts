@@ -26,7 +26,12 @@ export interface Report {
   coverage?: number;
   stretch?: { p50: number; p95: number; max: number };
   /** Stated error of the film points; null if no bound is known. */
-  error?: { p50_mm: number | null; p95_mm: number | null; above_pixel_share: number } | null;
+  error?: {
+    p50_mm: number | null;
+    p95_mm: number | null;
+    above_pixel_share: number;
+    no_bound_share: number;
+  } | null;
   total_seconds?: number;
   warnings?: Warning[];
 }

@@ -71,8 +71,12 @@ export function SimulateView({ results }: { results: Results }) {
                   report.error.p95_mm === null ? 'not known' : formatMm(report.error.p95_mm, 2),
                 ],
                 !!report.error && [
-                  'Points off by more than a pixel',
+                  'Points that may be off by more than a pixel',
                   formatShare(report.error.above_pixel_share),
+                ],
+                !!report.error?.no_bound_share && [
+                  'Points behind torn film, without a bound',
+                  formatShare(report.error.no_bound_share),
                 ],
                 ['Dip speed', `${report.parameters?.dip_speed_mm_per_s ?? '–'} mm/s`],
                 ['Film', report.parameters?.film?.name ?? '–'],
