@@ -80,6 +80,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config,
                                               const std::string& first_admin) {
   std::unique_ptr<Daemon> daemon(new Daemon);
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
+  HP_RETURN_IF_ERROR(check_build(daemon->layout_.database()));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
   HP_RETURN_IF_ERROR(check_restored(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));

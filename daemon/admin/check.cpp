@@ -9,6 +9,7 @@
 
 #include "daemon/admin/offline_state.h"
 #include "daemon/platform/check_line.h"
+#include "daemon/store/database/schema.h"
 #include "daemon/workers/child_process.h"
 #include "daemon/workers/program_digest.h"
 #include "daemon/workers/slurm/cluster_check.h"
@@ -71,6 +72,7 @@ Result<std::string> check_state(const std::string& named) {
   if (::access(root.c_str(), R_OK | W_OK | X_OK) != 0) {
     return daemon::system_failure(root, "cannot be written");
   }
+  HP_RETURN_IF_ERROR(daemon::check_build(daemon::Layout{root}.database()));
   return root.string() + " can be written";
 }
 

@@ -49,13 +49,14 @@ Result<State> open_state(const std::filesystem::path& root) {
             "folder with --state-dir, and run this command as the daemon's user");
   }
   HP_RETURN_IF_ERROR(check_is_mine(state.layout.root));
+  HP_RETURN_IF_ERROR(daemon::check_build(state.layout.database()));
   HP_RETURN_IF_ERROR(daemon::check_restored(state.layout));
   auto lock = daemon::lock_state(state.layout);
   if (!lock && lock.error().code != Code::kFailedPrecondition) {
     return tl::unexpected(std::move(lock).error());
   }
   if (lock) state.lock = std::move(*lock);
-  HP_ASSIGN_OR_RETURN(state.database, daemon::open_store_as_it_is(state.layout.database()));
+  HP_ASSIGN_OR_RETURN(state.database, daemon::open_store(state.layout.database()));
   return state;
 }
 

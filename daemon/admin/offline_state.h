@@ -21,11 +21,10 @@ struct State {
   [[nodiscard]] bool daemon_runs() const { return !lock.valid(); }
 };
 
-/// Opens the store of a state folder without migrating it, because a daemon of another version may
-/// be using it.
+/// Opens the store of a state folder, which a daemon may be using.
 /// @param root  empty: the folder of this user's daemon
 /// @return kNotFound if the folder does not exist; kPermissionDenied if it belongs to another user;
-///         kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
+///         kFailedPrecondition, STORE_DIFFERS or RESTORE_UNFINISHED
 [[nodiscard]] Result<State> open_state(const std::filesystem::path& root);
 
 /// Returns the absolute path of the folder; an empty `root` means the folder of the user's own

@@ -131,6 +131,13 @@ class Unpacked {
 
   Result<Contents> check_database() {
     const auto path = folder_ / kDatabaseName;
+    if (!daemon::check_build(path)) {
+      return fail(Code::kFailedPrecondition,
+                  file_.string() +
+                      ": was made by another build of hydroprint; restore it with that "
+                      "build. Nothing was restored",
+                  "STORE_DIFFERS");
+    }
     HP_ASSIGN_OR_RETURN(const auto database, daemon::open_store(path));
     std::string verdict;
     HP_RETURN_IF_ERROR(database->each("PRAGMA quick_check(1)", {},

@@ -9,7 +9,9 @@
 #include <thread>
 
 #include "daemon/admin/archive.h"
+#include "daemon/admin/backup.h"
 #include "daemon/store/database/database.h"
+#include "sim/base/sha256.h"
 #include "tests/client/people_cli.h"
 
 namespace hydroprint::tests {
@@ -439,19 +441,61 @@ TEST_F(AdminCli, AnotherUsersFolderIsRefused) {
   }
 }
 
-TEST_F(AdminCli, AStoreOfAnotherVersionIsNotChanged) {
-  daemon_.terminate();
-  for (const char* const version : {"4000", "2"}) {
-    {
-      const auto database =
-          hydroprint::daemon::Database::open(daemon_.state() / "hydroprint.db", "").value();
-      ASSERT_TRUE(database->run(std::string("UPDATE settings SET value='") + version +
-                                "' WHERE name='schema'"));
+// A store of a former build, with changes in its log.
+std::unique_ptr<hydroprint::daemon::Database> other_store(const std::filesystem::path& path) {
+  auto database =
+      hydroprint::daemon::Database::open(path, "CREATE TABLE settings(name, value);").value();
+  EXPECT_TRUE(database->run("INSERT INTO settings VALUES ('schema', '1')"));
+  return database;
+}
+
+TEST_F(AdminCli, AStateFolderOfAnotherBuildIsRefusedAndUnchanged) {
+  std::filesystem::create_directories(elsewhere());
+  std::ofstream(elsewhere() / "lock") << "1234";
+  const auto other = other_store(elsewhere() / "hydroprint.db");
+  const Tree before = tree_of(elsewhere());
+  const auto time = std::filesystem::last_write_time(elsewhere());
+  const auto expect_refused = [&](const std::string& words) {
+    for (const char* const part :
+         {"hydroprint.db: was made by another build of hydroprint", "set the state folder aside"}) {
+      EXPECT_NE(words.find(part), std::string::npos) << words;
     }
-    const Outcome refused = admin({"sign-in-link", "ann"});
-    EXPECT_EQ(refused.status, 3);
-    EXPECT_NE(refused.err.find("version of hydroprintd"), std::string::npos) << refused.err;
+    EXPECT_EQ(tree_of(elsewhere()), before);
+    EXPECT_EQ(std::filesystem::last_write_time(elsewhere()), time);
+  };
+  const Ended started = run_daemon({"--state-dir", elsewhere(), "--grpc", "127.0.0.1:0"});
+  EXPECT_EQ(started.status, 4);
+  expect_refused(started.words);
+  for (const Arguments& arguments :
+       {Arguments{"sign-in-link", "ann"}, Arguments{"backup", folder_.path() / "x.tar"}}) {
+    const Outcome refused = admin(arguments, elsewhere());
+    EXPECT_EQ(refused.status, 3) << arguments.front();
+    expect_refused(refused.err);
   }
+  const Outcome checked = admin({"check", "--config", daemon_.config()}, elsewhere());
+  EXPECT_EQ(checked.status, 4) << checked.err;
+  expect_refused(checked.out);
+}
+
+TEST_F(AdminCli, ABackupOfAnotherBuildIsRefusedWithoutChanges) {
+  daemon_.terminate();
+  const auto path = folder_.path() / "other.db", file = folder_.path() / "other.tar";
+  other_store(path);  // closed, so that its log is empty
+  const std::string database = content(path);
+  const auto out = admin::ArchiveWriter::create(file).value();
+  ASSERT_TRUE(out->add(admin::kDatabaseName, database));
+  const json manifest{{"format", admin::kBackupFormat}, {"database_sha256", sha256(database)}};
+  ASSERT_TRUE(out->add(admin::kManifestName, manifest.dump()));
+  ASSERT_TRUE(out->finish());
+  const Tree before = tree_of(daemon_.state());
+  const Outcome refused = admin({"restore", file, "--replace"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find(file.string() + ": was made by another build of hydroprint"),
+            std::string::npos)
+      << refused.err;
+  Tree after = tree_of(daemon_.state());
+  after["lock"] = before.at("lock");
+  EXPECT_EQ(after, before);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class DbRow {
 /// returns. Thread-safe; calls run one at a time, and a transaction counts as one call.
 class Database {
  public:
-  /// Opens or creates the file and runs `schema` (statements that can be run repeatedly).
+  /// Opens or creates the file and runs the statements `schema` in one transaction.
   /// @return kInternal, STORE_FAILED if the file is not a database or cannot be used
   [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::filesystem::path& path,
                                                               const char* schema);

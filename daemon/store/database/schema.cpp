@@ -1,136 +1,143 @@
 #include "daemon/store/database/schema.h"
 
-#include <string>
-#include <vector>
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "daemon/platform/durable_file.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-/// Statements that migrate the store from the previous version to the version `to`.
-struct Migration {
-  std::int64_t to;
-  std::vector<const char*> statements;
-};
+using namespace std::string_literals;
 
-const std::vector<Migration>& migrations() {
-  static const std::vector<Migration> all{
-      // Version 2: users. `role` is a number of hydroprint.v1.Role.
-      {2,
-       {"CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT "
-        "NULL, "
-        "password TEXT NOT NULL, create_ms INTEGER NOT NULL) WITHOUT ROWID",
-        "CREATE TABLE api_keys(id TEXT PRIMARY KEY, "
-        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, display_name TEXT NOT NULL, "
-        "secret_hash TEXT NOT NULL, role INTEGER NOT NULL, create_ms INTEGER NOT NULL, "
-        "expire_ms INTEGER NOT NULL, use_ms INTEGER NOT NULL) WITHOUT ROWID",
-        "CREATE TABLE sessions(id TEXT PRIMARY KEY, "
-        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, "
-        "token_hash TEXT NOT NULL UNIQUE, peer TEXT NOT NULL, create_ms INTEGER NOT NULL, "
-        "use_ms INTEGER NOT NULL) WITHOUT ROWID",
-        "CREATE TABLE sign_in_links(token_hash TEXT PRIMARY KEY, "
-        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, expire_ms INTEGER NOT NULL) "
-        "WITHOUT ROWID",
-        "CREATE TABLE audit(seq INTEGER PRIMARY KEY AUTOINCREMENT, time_ms INTEGER NOT NULL, "
-        "who TEXT NOT NULL, via TEXT NOT NULL, peer TEXT NOT NULL, what TEXT NOT NULL, "
-        "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
-        "CREATE INDEX audit_by_time ON audit(time_ms)",
-        "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
-      // Version 3: quotas and retention. The owner of a job becomes an owner of the assets that the
-      // job uses. All assets count as last used at the time of the migration. Retention of a
-      // finished job starts at `keep_from_ms`.
-      {3,
-       {"CREATE TABLE asset_owners(owner TEXT NOT NULL, "
-        "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
-        "create_ms INTEGER NOT NULL, PRIMARY KEY(owner, sha256)) WITHOUT ROWID",
-        "CREATE INDEX owners_by_asset ON asset_owners(sha256)",
-        "INSERT OR IGNORE INTO asset_owners SELECT jobs.owner, assets.sha256, assets.create_ms "
-        "FROM job_inputs JOIN jobs ON jobs.id=job_inputs.job JOIN assets USING(sha256)",
-        "ALTER TABLE assets ADD COLUMN use_ms INTEGER NOT NULL DEFAULT 0",
-        "UPDATE assets SET use_ms=1000*CAST(strftime('%s','now') AS INTEGER)",
-        "ALTER TABLE uploads ADD COLUMN owner TEXT NOT NULL DEFAULT ''",
-        "ALTER TABLE jobs ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0",
-        "ALTER TABLE jobs ADD COLUMN keep_from_ms INTEGER NOT NULL DEFAULT 0",
-        "UPDATE jobs SET keep_from_ms=end_ms", "CREATE INDEX jobs_by_owner ON jobs(owner)",
-        "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
-        "WITHOUT ROWID"}},
-      // Version 4: the spec of a job is stored as JSON; jobs stored earlier keep the worker's
-      // command-line flags. Properties of a job's kind become columns of the job's row.
-      {4,
-       {"ALTER TABLE jobs ADD COLUMN spec TEXT NOT NULL DEFAULT ''",
-        "ALTER TABLE jobs ADD COLUMN computed INTEGER NOT NULL DEFAULT 1",
-        "ALTER TABLE jobs ADD COLUMN reads_artifacts INTEGER NOT NULL DEFAULT 0",
-        "ALTER TABLE jobs ADD COLUMN interrupted_advice TEXT NOT NULL DEFAULT ''",
-        "UPDATE jobs SET computed=0 WHERE verb IN ('dip','print','capture')",
-        "UPDATE jobs SET reads_artifacts=1, interrupted_advice='the printer may have printed this "
-        "or not; look before you print again' WHERE verb='print'"}},
-      // Version 5: open executions of jobs; see Execution. The key lets a job have only one.
-      // `jobs.attempts` is the number of times that the job was started.
-      {5,
-       {"ALTER TABLE jobs ADD COLUMN attempts INTEGER NOT NULL DEFAULT 0",
-        "CREATE TABLE executions(job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, "
-        "attempt INTEGER NOT NULL, executor TEXT NOT NULL, handle TEXT NOT NULL, "
-        "folder TEXT NOT NULL)"}},
-  };
-  return all;
-}
+/// The store's tables. If they change, raise user_version here and in check_build(), which reads it
+/// and application_id from the header of the file. `jobs.flags` has one flag per line; `jobs.body`,
+/// `dips.status` and `calibrations.body` are serialised messages. `jobs.attempts` is the number of
+/// times that the job was started; its retention starts at `keep_from_ms`. `executions` are the
+/// open executions of jobs. `losses.count` is the number of times that the daemon was killed, or
+/// its machine crashed, while the job ran. `lease` has at most one row. `calibrations.job` is 0 for
+/// a manual entry. `captures` outlive their jobs, because calibrations do. `role` is a number of
+/// hydroprint.v1.Role.
+constexpr const char* kSchema = R"sql(
+PRAGMA application_id=0x48795072;
+PRAGMA user_version=1;
+CREATE TABLE settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE jobs(
+  id INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL, display_name TEXT NOT NULL,
+  owner TEXT NOT NULL, priority INTEGER NOT NULL, rank INTEGER NOT NULL, body BLOB NOT NULL,
+  verb TEXT NOT NULL, spec TEXT NOT NULL, flags TEXT NOT NULL, pose TEXT NOT NULL,
+  computed INTEGER NOT NULL, reads_artifacts INTEGER NOT NULL, interrupted_advice TEXT NOT NULL,
+  threads INTEGER NOT NULL, digest TEXT NOT NULL, retry_of INTEGER NOT NULL,
+  use_cache INTEGER NOT NULL, cache_hit INTEGER NOT NULL DEFAULT 0,
+  state INTEGER NOT NULL, fraction REAL NOT NULL DEFAULT 0, phase TEXT NOT NULL DEFAULT '',
+  phase_fraction REAL NOT NULL DEFAULT 0, eta_ms INTEGER NOT NULL DEFAULT 0,
+  create_ms INTEGER NOT NULL, start_ms INTEGER NOT NULL DEFAULT 0, end_ms INTEGER NOT NULL DEFAULT 0,
+  update_ms INTEGER NOT NULL, keep_from_ms INTEGER NOT NULL DEFAULT 0,
+  purge_ms INTEGER NOT NULL DEFAULT 0, version INTEGER NOT NULL DEFAULT 1,
+  error_code INTEGER, error_reason TEXT, error_message TEXT, exit_status INTEGER, signal INTEGER,
+  shared INTEGER NOT NULL DEFAULT 0, pinned INTEGER NOT NULL DEFAULT 0,
+  attempts INTEGER NOT NULL DEFAULT 0);
+CREATE INDEX jobs_by_state ON jobs(state);
+CREATE INDEX jobs_by_digest ON jobs(digest);
+CREATE INDEX jobs_by_owner ON jobs(owner);
+CREATE TABLE job_inputs(
+  job INTEGER NOT NULL REFERENCES jobs(id) ON DELETE CASCADE, name TEXT NOT NULL,
+  sha256 TEXT NOT NULL, PRIMARY KEY(job, name)) WITHOUT ROWID;
+CREATE INDEX inputs_by_hash ON job_inputs(sha256);
+CREATE TABLE events(
+  seq INTEGER PRIMARY KEY AUTOINCREMENT,
+  job INTEGER NOT NULL REFERENCES jobs(id) ON DELETE CASCADE, time_ms INTEGER NOT NULL,
+  kind INTEGER NOT NULL, state INTEGER NOT NULL, fraction REAL NOT NULL, phase TEXT NOT NULL,
+  phase_fraction REAL NOT NULL, eta_ms INTEGER NOT NULL, message TEXT NOT NULL);
+CREATE INDEX events_by_job ON events(job, seq);
+CREATE TABLE executions(
+  job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, attempt INTEGER NOT NULL,
+  executor TEXT NOT NULL, handle TEXT NOT NULL, folder TEXT NOT NULL);
+CREATE TABLE artifacts(
+  job INTEGER NOT NULL REFERENCES jobs(id) ON DELETE CASCADE, name TEXT NOT NULL,
+  size INTEGER NOT NULL, sha256 TEXT NOT NULL, media_type TEXT NOT NULL,
+  PRIMARY KEY(job, name)) WITHOUT ROWID;
+CREATE TABLE assets(
+  sha256 TEXT PRIMARY KEY, size INTEGER NOT NULL, media_type TEXT NOT NULL,
+  create_ms INTEGER NOT NULL, use_ms INTEGER NOT NULL DEFAULT 0) WITHOUT ROWID;
+CREATE TABLE asset_owners(
+  owner TEXT NOT NULL, sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE,
+  create_ms INTEGER NOT NULL, PRIMARY KEY(owner, sha256)) WITHOUT ROWID;
+CREATE INDEX owners_by_asset ON asset_owners(sha256);
+CREATE TABLE uploads(
+  id TEXT PRIMARY KEY, sha256 TEXT NOT NULL, size INTEGER NOT NULL, media_type TEXT NOT NULL,
+  expire_ms INTEGER NOT NULL, owner TEXT NOT NULL DEFAULT '') WITHOUT ROWID;
+CREATE TABLE losses(
+  job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, count INTEGER NOT NULL);
+CREATE TABLE dips(
+  job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, status BLOB NOT NULL);
+CREATE TABLE lease(
+  one INTEGER PRIMARY KEY CHECK(one=1), id TEXT NOT NULL, holder TEXT NOT NULL,
+  purpose TEXT NOT NULL, acquire_ms INTEGER NOT NULL, expire_ms INTEGER NOT NULL);
+CREATE TABLE calibrations(
+  id INTEGER PRIMARY KEY AUTOINCREMENT, kind INTEGER NOT NULL, owner TEXT NOT NULL,
+  job INTEGER NOT NULL, capture INTEGER NOT NULL, active INTEGER NOT NULL,
+  create_ms INTEGER NOT NULL, body BLOB NOT NULL);
+CREATE INDEX calibrations_by_job ON calibrations(job);
+CREATE TABLE captures(
+  job INTEGER PRIMARY KEY, time_ms INTEGER NOT NULL, watched INTEGER NOT NULL,
+  homed INTEGER NOT NULL, axis_mm REAL NOT NULL, homings INTEGER NOT NULL, dips INTEGER NOT NULL);
+CREATE TABLE requests(
+  owner TEXT NOT NULL, method TEXT NOT NULL, id TEXT NOT NULL, digest TEXT NOT NULL,
+  result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;
+CREATE TABLE users(
+  name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT NULL,
+  password TEXT NOT NULL, create_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE api_keys(
+  id TEXT PRIMARY KEY, user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE,
+  display_name TEXT NOT NULL, secret_hash TEXT NOT NULL, role INTEGER NOT NULL,
+  create_ms INTEGER NOT NULL, expire_ms INTEGER NOT NULL, use_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE sessions(
+  id TEXT PRIMARY KEY, user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE,
+  token_hash TEXT NOT NULL UNIQUE, peer TEXT NOT NULL, create_ms INTEGER NOT NULL,
+  use_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE sign_in_links(
+  token_hash TEXT PRIMARY KEY, user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE,
+  expire_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE audit(
+  seq INTEGER PRIMARY KEY AUTOINCREMENT, time_ms INTEGER NOT NULL, who TEXT NOT NULL,
+  via TEXT NOT NULL, peer TEXT NOT NULL, what TEXT NOT NULL, object TEXT NOT NULL,
+  outcome TEXT NOT NULL, detail TEXT NOT NULL);
+CREATE INDEX audit_by_time ON audit(time_ms);
+)sql";
 
-Result<std::int64_t> version_of(Database& database) {
-  std::int64_t version = 0;
-  HP_RETURN_IF_ERROR(
-      database.each("SELECT CAST(value AS INTEGER) FROM settings WHERE name='schema'", {},
-                    [&](const DbRow& row) { version = row.integer(0); }));
-  return version;
-}
-
-tl::unexpected<Error> too_new() {
-  return fail(
-      Code::kFailedPrecondition,
-      "was made by a later version of hydroprintd; use that version, or another state folder",
-      "STORE_TOO_NEW");
-}
-
-tl::unexpected<Error> naming(const std::filesystem::path& path, Error error) {
-  error.message = path.string() + ": " + error.message;
-  return tl::unexpected(std::move(error));
-}
-
-Status check_version(Database& database) {
-  HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
-  if (version > migrations().back().to) return too_new();
-  if (version == migrations().back().to) return {};
-  return fail(Code::kFailedPrecondition,
-              "was made by an earlier version of hydroprintd; start this version once to migrate "
-              "the store");
-}
-
-Status migrate(Database& database) {
-  HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
-  if (version > migrations().back().to) return too_new();
-  for (const Migration& migration : migrations()) {
-    if (migration.to <= version) continue;
-    for (const char* statement : migration.statements) {
-      HP_RETURN_IF_ERROR(database.run(statement));
-    }
-    HP_RETURN_IF_ERROR(database.run("UPDATE settings SET value=? WHERE name='schema'",
-                                    {std::to_string(migration.to)}));
-  }
-  return {};
+/// Creates a complete store, or nothing. SQLite would apply the log of a lost database to it.
+Status create(const std::filesystem::path& path) {
+  const std::string part = path.string() + ".part";
+  for (const char* const tail : {".part", "-wal", "-shm"}) discard(path.string() + tail);
+  HP_ASSIGN_OR_RETURN(const auto memory, Database::open(":memory:", kSchema));
+  HP_RETURN_IF_ERROR(memory->run("VACUUM INTO ?", {part}));
+  return publish(part, path);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {
-  HP_ASSIGN_OR_RETURN(auto database, Database::open(path, kSchema));
-  if (const Status done = database->transaction([&] { return migrate(*database); }); !done) {
-    return naming(path, done.error());
-  }
-  return database;
+Status check_build(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  std::string header(72, '\0');
+  file.read(header.data(), 72);
+  // Offsets from https://www.sqlite.org/fileformat.html; the numbers are big-endian.
+  if (header.substr(60, 4) == "\0\0\0\1"s && header.substr(68) == "HyPr") return {};
+  return fail(Code::kFailedPrecondition,
+              fmt::format("{}: was made by another build of hydroprint; use that build, or set the "
+                          "state folder aside (rename {}) and start with an empty one",
+                          path.string(), path.parent_path().string()),
+              "STORE_DIFFERS");
 }
 
-Result<std::unique_ptr<Database>> open_store_as_it_is(const std::filesystem::path& path) {
-  HP_ASSIGN_OR_RETURN(auto database, Database::open(path, ""));
-  if (const Status good = check_version(*database); !good) return naming(path, good.error());
-  return database;
+Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {
+  HP_RETURN_IF_ERROR(check_build(path));
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) HP_RETURN_IF_ERROR(create(path));
+  return Database::open(path, "");
 }
 
 }  // namespace hydroprint::daemon

@@ -9,7 +9,6 @@
 #include <random>
 #include <thread>
 
-#include "daemon/store/database/database.h"
 #include "tests/daemon/api/support.h"
 #include "tests/support/campaign.h"
 
@@ -103,36 +102,6 @@ TEST_F(Crash, QueuedJobsPauseAndRequestIdsAreKept) {
   client->resume();
   EXPECT_EQ(client->wait_for_end(first.name()).state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(client->wait_for_end(second).state(), v1::Job::SUCCEEDED);
-}
-
-// Turns the store into one of schema version 3, whose jobs have the worker's flags instead of a
-// spec.
-void downgrade_to_version_3(const std::filesystem::path& path) {
-  const auto database = daemon::Database::open(path, "").value();
-  for (const char* const statement :
-       {"UPDATE jobs SET flags='--mesh=m.obj'", "ALTER TABLE jobs DROP COLUMN spec",
-        "ALTER TABLE jobs DROP COLUMN computed", "ALTER TABLE jobs DROP COLUMN reads_artifacts",
-        "ALTER TABLE jobs DROP COLUMN interrupted_advice", "ALTER TABLE jobs DROP COLUMN attempts",
-        "DROP TABLE executions", "UPDATE settings SET value='3' WHERE name='schema'"}) {
-    const Status done = database->run(statement);
-    ASSERT_TRUE(done) << statement << ": " << done.error().message;
-  }
-}
-
-TEST_F(Crash, JobQueuedBeforeAnUpgradeRunsAndCanBeRetried) {
-  client->pause();
-  const std::string name = client->simulate("#old").name();
-  ASSERT_EQ(daemon.terminate(), 0);
-  downgrade_to_version_3(daemon.state() / "hydroprint.db");
-  daemon.start();
-  client = std::make_unique<Client>(daemon.address());
-  client->resume();
-  EXPECT_EQ(client->wait_for_end(name).state(), v1::Job::SUCCEEDED);
-  v1::RetryJobRequest request;
-  request.set_name(name);
-  v1::Job again;
-  ASSERT_TRUE(client->jobs->RetryJob(client->context().get(), request, &again).ok());
-  EXPECT_EQ(client->wait_for_end(again.name()).state(), v1::Job::SUCCEEDED);
 }
 
 TEST_F(Crash, UploadContinuesAtTheAcknowledgedOffset) {

@@ -342,7 +342,7 @@ TEST_F(JobStoreTest, UnknownFoldersAreSetAsideAtTheStart) {
 TEST_F(JobStoreTest, InvalidDatabaseFileIsRefused) {
   const auto path = folder.path() / "junk.db";
   std::ofstream(path) << std::string(5000, 'x');
-  const auto opened = Database::open(path, kSchema);
+  const auto opened = Database::open(path, "");
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().reason, "STORE_FAILED");
   EXPECT_NE(opened.error().message.find("junk.db"), std::string::npos);
