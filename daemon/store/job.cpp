@@ -30,8 +30,6 @@ const char* name_of(JobState state) {
 
 std::string input_digest(const Work& work, const std::string& worker) {
   std::string text = "worker " + worker + "\nverb " + work.verb + '\n';
-  for (const std::string& flag : work.flags) text += "flag " + flag + '\n';
-  text += "pose " + work.pose_json + '\n';
   text += "spec " + work.spec + '\n';
   std::vector<InputFile> inputs = work.inputs;
   std::sort(inputs.begin(), inputs.end(),

@@ -49,10 +49,6 @@ struct Work {
   std::string verb;
   std::string spec;
   std::vector<InputFile> inputs;
-  /// Jobs stored before schema version 4 have no spec. They have the worker's flags ("--dpi=300")
-  /// and the content of the file for --pose.
-  std::vector<std::string> flags = {};
-  std::string pose_json = {};
 };
 
 /// Properties of a job's kind that the store needs.

@@ -1,27 +1,18 @@
 #include "daemon/store/job_rows.h"
 
-#include <sstream>
-
 #include "daemon/platform/resource_names.h"
 
 namespace hydroprint::daemon {
 namespace {
 
 constexpr const char* kJobColumns =
-    "SELECT id, uid, display_name, owner, priority, body, verb, flags, threads, digest, retry_of, "
+    "SELECT id, uid, display_name, owner, priority, body, verb, spec, threads, digest, retry_of, "
     "use_cache, cache_hit, state, fraction, phase, phase_fraction, eta_ms, create_ms, start_ms, "
     "end_ms, update_ms, CASE WHEN pinned=1 OR EXISTS(SELECT 1 FROM calibrations WHERE "
     "calibrations.job=jobs.id) THEN 0 ELSE purge_ms END, version, error_code, error_reason, "
     "error_message, exit_status, "
-    "signal, pose, (SELECT status FROM dips WHERE job=jobs.id), shared, pinned, spec, computed, "
+    "signal, (SELECT status FROM dips WHERE job=jobs.id), shared, pinned, computed, "
     "reads_artifacts, interrupted_advice, attempts FROM jobs ";
-
-std::vector<std::string> split_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 std::optional<JobFailure> read_failure(const DbRow& row) {
   if (row.is_null(24)) return std::nullopt;
@@ -43,10 +34,8 @@ Job read_job(const DbRow& row) {
   job.definition.priority = static_cast<std::int32_t>(row.integer(4));
   job.definition.body = row.text(5);
   job.definition.work.verb = row.text(6);
-  job.definition.work.flags = split_lines(row.text(7));
-  job.definition.work.pose_json = row.text(29);
-  job.definition.work.spec = row.text(33);
-  job.definition.traits = {row.integer(34) != 0, row.integer(35) != 0, row.text(36)};
+  job.definition.work.spec = row.text(7);
+  job.definition.traits = {row.integer(32) != 0, row.integer(33) != 0, row.text(34)};
   job.definition.threads = static_cast<std::int32_t>(row.integer(8));
   job.definition.digest = row.text(9);
   job.definition.retry_of = row.integer(10);
@@ -61,10 +50,10 @@ Job read_job(const DbRow& row) {
   job.purge_ms = row.integer(22);
   job.version = row.integer(23);
   job.failure = read_failure(row);
-  job.dip_status = row.text(30);
-  job.shared = row.integer(31) != 0;
-  job.pinned = row.integer(32) != 0;
-  job.attempts = row.integer(37);
+  job.dip_status = row.text(29);
+  job.shared = row.integer(30) != 0;
+  job.pinned = row.integer(31) != 0;
+  job.attempts = row.integer(35);
   return job;
 }
 
@@ -156,12 +145,6 @@ Result<std::vector<Execution>> select_executions(Database& database) {
         out.push_back({row.integer(0), row.integer(1), row.text(2), row.text(3), row.text(4)});
       }));
   return out;
-}
-
-std::string join_lines(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + '\n';
-  return text;
 }
 
 }  // namespace hydroprint::daemon

@@ -53,7 +53,4 @@ namespace hydroprint::daemon {
 /// Returns the open executions of all jobs, in the order of their jobs.
 [[nodiscard]] Result<std::vector<Execution>> select_executions(Database& database);
 
-/// Joins lines for storage, for example flags: one per line.
-[[nodiscard]] std::string join_lines(const std::vector<std::string>& lines);
-
 }  // namespace hydroprint::daemon

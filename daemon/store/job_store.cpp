@@ -63,29 +63,15 @@ Result<std::int64_t> JobStore::insert(const NewJob& definition) {
   HP_RETURN_IF_ERROR(check_inputs(definition.work.inputs));
   const std::int64_t now = changes_.now_ms();
   HP_RETURN_IF_ERROR(database_.run(
-      "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, spec, flags, pose, "
+      "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, spec, "
       "computed, reads_artifacts, interrupted_advice, threads, digest, retry_of, use_cache, state, "
-      "start_ms, create_ms, update_ms) VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
-      {make_uuid(),
-       definition.display_name,
-       definition.owner,
-       std::int64_t{definition.priority},
-       definition.body,
-       definition.work.verb,
-       definition.work.spec,
-       join_lines(definition.work.flags),
-       definition.work.pose_json,
-       std::int64_t{traits.computed},
-       std::int64_t{traits.reads_artifacts},
-       traits.interrupted_advice,
-       std::int64_t{definition.threads},
-       definition.digest,
-       definition.retry_of,
-       std::int64_t{definition.use_cache},
-       number(state),
-       state == JobState::kRunning ? now : 0,
-       now,
-       now}));
+      "start_ms, create_ms, update_ms) VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+      {make_uuid(), definition.display_name, definition.owner, std::int64_t{definition.priority},
+       definition.body, definition.work.verb, definition.work.spec, std::int64_t{traits.computed},
+       std::int64_t{traits.reads_artifacts}, traits.interrupted_advice,
+       std::int64_t{definition.threads}, definition.digest, definition.retry_of,
+       std::int64_t{definition.use_cache}, number(state), state == JobState::kRunning ? now : 0,
+       now, now}));
   const std::int64_t id = database_.last_id();
   // Later jobs rank after earlier ones; moving a job permutes the ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));

@@ -16,8 +16,6 @@ struct RunFolder {
   /// Returns the path of the job's spec. It is not in the folder of the inputs, because an input
   /// may have the same name.
   [[nodiscard]] std::filesystem::path spec() const { return work() / "spec.json"; }
-  /// Returns the path of the pose file, for jobs whose options are stored as flags.
-  [[nodiscard]] std::filesystem::path pose() const { return work() / "pose.json"; }
 };
 
 /// Returns the name of the folder of one attempt to run a job.

@@ -5,24 +5,10 @@
 #include <algorithm>
 
 namespace hydroprint::daemon {
-namespace {
-
-// Returns the job's options: its spec, or its flags if an earlier version of the daemon stored it.
-std::vector<std::string> options_of(const Job& job, const RunFolder& folder) {
-  const Work& work = job.definition.work;
-  if (!work.spec.empty()) return spec_options(folder.spec());
-  std::vector<std::string> out = work.flags;
-  if (!work.pose_json.empty()) out.push_back("--pose=" + folder.pose().string());
-  return out;
-}
-
-}  // namespace
 
 Status make_run_folder(const Job& job, const RunFolder& folder) {
-  const Work& work = job.definition.work;
   HP_RETURN_IF_ERROR(make_folder(folder.work()));
-  if (!work.spec.empty()) return write_file(folder.spec(), work.spec);
-  return work.pose_json.empty() ? Status() : write_file(folder.pose(), work.pose_json);
+  return write_file(folder.spec(), job.definition.work.spec);
 }
 
 Launch worker_launch(const Job& job, const RunFolder& folder, const PoolOptions& options,
@@ -33,7 +19,7 @@ Launch worker_launch(const Job& job, const RunFolder& folder, const PoolOptions&
   launch.inputs = folder.inputs();
   launch.work = folder.work();
   launch.arguments = {job.definition.work.verb};
-  for (std::string& option : options_of(job, folder)) {
+  for (std::string& option : spec_options(folder.spec())) {
     launch.arguments.push_back(std::move(option));
   }
   launch.threads = threads;

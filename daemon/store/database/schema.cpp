@@ -12,12 +12,12 @@ namespace {
 using namespace std::string_literals;
 
 /// The store's tables. If they change, raise user_version here and in check_build(), which reads it
-/// and application_id from the header of the file. `jobs.flags` has one flag per line; `jobs.body`,
-/// `dips.status` and `calibrations.body` are serialised messages. `jobs.attempts` is the number of
-/// times that the job was started; its retention starts at `keep_from_ms`. `executions` are the
-/// open executions of jobs. `losses.count` is the number of times that the daemon was killed, or
-/// its machine crashed, while the job ran. `lease` has at most one row. `calibrations.job` is 0 for
-/// a manual entry. `captures` outlive their jobs, because calibrations do. `role` is a number of
+/// and application_id from the header of the file. `jobs.body`, `dips.status` and
+/// `calibrations.body` are serialised messages. `jobs.attempts` is the number of times that the job
+/// was started; its retention starts at `keep_from_ms`. `executions` are the open executions of
+/// jobs. `losses.count` is the number of times that the daemon was killed, or its machine crashed,
+/// while the job ran. `lease` has at most one row. `calibrations.job` is 0 for a manual entry.
+/// `captures` outlive their jobs, because calibrations do. `role` is a number of
 /// hydroprint.v1.Role.
 constexpr const char* kSchema = R"sql(
 PRAGMA application_id=0x48795072;
@@ -26,8 +26,8 @@ CREATE TABLE settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE jobs(
   id INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL, display_name TEXT NOT NULL,
   owner TEXT NOT NULL, priority INTEGER NOT NULL, rank INTEGER NOT NULL, body BLOB NOT NULL,
-  verb TEXT NOT NULL, spec TEXT NOT NULL, flags TEXT NOT NULL, pose TEXT NOT NULL,
-  computed INTEGER NOT NULL, reads_artifacts INTEGER NOT NULL, interrupted_advice TEXT NOT NULL,
+  verb TEXT NOT NULL, spec TEXT NOT NULL, computed INTEGER NOT NULL,
+  reads_artifacts INTEGER NOT NULL, interrupted_advice TEXT NOT NULL,
   threads INTEGER NOT NULL, digest TEXT NOT NULL, retry_of INTEGER NOT NULL,
   use_cache INTEGER NOT NULL, cache_hit INTEGER NOT NULL DEFAULT 0,
   state INTEGER NOT NULL, fraction REAL NOT NULL DEFAULT 0, phase TEXT NOT NULL DEFAULT '',

@@ -52,10 +52,8 @@ std::string facts;
 std::string warning;
 bool is_garbage = false;
 
-/// Name of a file from the spec; for jobs stored without a spec, from the worker's flags. Empty if
-/// there is none.
+/// Name of a file from the spec; empty if there is none.
 std::string file_of(const std::string& field) {
-  if (spec.is_null()) return flags["--" + field];
   const auto& object = spec.contains("object") ? spec["object"] : spec;
   return object.contains(field) ? object[field].value("name", "") : "";
 }
