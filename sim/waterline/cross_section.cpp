@@ -126,19 +126,22 @@ double area_mm2(const CrossSection& section) {
   return sum;
 }
 
-bool is_inside(const CrossSection& section, const Eigen::Vector2d& p) {
+bool is_inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
-  for (const Loop& loop : section) {
-    const auto& points = loop.points_mm;
-    for (std::size_t i = 0, j = points.size() - 1; i < points.size(); j = i++) {
-      const Eigen::Vector2d& a = points[i];
-      const Eigen::Vector2d& b = points[j];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
-        inside = !inside;
-      }
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d& a = polygon[i];
+    const Eigen::Vector2d& b = polygon[j];
+    if ((a.y() > p.y()) != (b.y() > p.y()) &&
+        p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) {
+      inside = !inside;
     }
   }
+  return inside;
+}
+
+bool is_inside(const CrossSection& section, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (const Loop& loop : section) inside ^= is_inside(loop.points_mm, p);
   return inside;
 }
 

@@ -33,6 +33,10 @@ inline constexpr double kLeastLoop_mm2 = 1e-3;
 /// Returns the area of the solid, mm2.
 [[nodiscard]] double area_mm2(const CrossSection& section);
 
+/// Returns true if the point lies inside a closed curve.
+[[nodiscard]] bool is_inside(const std::vector<Eigen::Vector2d>& polygon,
+                             const Eigen::Vector2d& point_mm);
+
 /// Returns true if the point lies inside the solid, by the even-odd rule.
 [[nodiscard]] bool is_inside(const CrossSection& section, const Eigen::Vector2d& point_mm);
 

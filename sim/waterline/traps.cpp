@@ -1,6 +1,7 @@
 #include "sim/waterline/traps.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "sim/waterline/holes.h"
@@ -56,7 +57,11 @@ class Follower {
     }
     const double half_span_mm = 0.5 * (line.immersion_mm - immersion_mm_);
     for (const FollowedHole& hole : before_) add_air(hole, half_span_mm);
-    for (const FollowedHole& hole : now) add_air(hole, half_span_mm);
+    for (const FollowedHole& hole : now) {
+      add_air(hole, half_span_mm);
+      if (hole.trap >= 0 && hole.holds_air)
+        traps_[hole.trap].air.push_back({line.immersion_mm, hole});
+    }
     for (const FollowedHole& hole : before_) {
       if (hole.trap >= 0) pass(hole, now, line.immersion_mm);
     }
@@ -68,6 +73,10 @@ class Follower {
     std::vector<Trap> out;
     for (const Trap& trap : traps_) {
       if (trap.area_mm2 >= kLeastTrap_mm2) out.push_back(trap);
+    }
+    for (Trap& trap : out) {
+      if (!trap.ceiling_mm) trap.air.clear();  // it is not closed after all
+      std::ranges::stable_sort(trap.air, {}, &AirSection::immersion_mm);
     }
     std::stable_sort(out.begin(), out.end(),
                      [](const Trap& a, const Trap& b) { return a.area_mm2 > b.area_mm2; });
@@ -117,6 +126,7 @@ class Follower {
       trap.ceiling_mm = immersion_mm;
     } else if (above != before.trap) {
       traps_[above].air_mm3 += std::exchange(trap.air_mm3, 0.0);
+      std::ranges::move(std::exchange(trap.air, {}), std::back_inserter(traps_[above].air));
     }
   }
 
@@ -125,7 +135,29 @@ class Follower {
   double immersion_mm_ = 0;
 };
 
+bool contains(const Hole& hole, const Eigen::Vector2d& point_mm) {
+  bool inside = false;
+  if (!hole.box_mm.contains(point_mm)) return inside;
+  for (const std::vector<Eigen::Vector2d>& curve : hole.curves)
+    inside ^= is_inside(curve, point_mm);
+  return inside;
+}
+
 }  // namespace
+
+bool is_in_air(const Trap& trap, const Eigen::Vector3d& point_mm) {
+  const std::vector<AirSection>& air = trap.air;
+  if (air.empty() || point_mm.z() < air.front().immersion_mm || point_mm.z() > *trap.ceiling_mm)
+    return false;
+  const auto above = std::ranges::upper_bound(air, point_mm.z(), {}, &AirSection::immersion_mm);
+  const double least_mm = std::prev(above)->immersion_mm;
+  const double most_mm = above == air.end() ? *trap.ceiling_mm : above->immersion_mm;
+  const auto first = std::ranges::lower_bound(air, least_mm, {}, &AirSection::immersion_mm);
+  const auto last = std::ranges::upper_bound(air, most_mm, {}, &AirSection::immersion_mm);
+  return std::any_of(first, last, [&](const AirSection& section) {
+    return contains(section.hole, point_mm.head<2>());
+  });
+}
 
 std::vector<Trap> find_traps(const std::vector<const Waterline*>& lines,
                              const std::vector<std::vector<char>>& is_closed, std::size_t count) {

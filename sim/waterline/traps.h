@@ -5,9 +5,17 @@
 #include <optional>
 #include <vector>
 
+#include "sim/waterline/holes.h"
+
 namespace hydroprint::waterline {
 
 struct Waterline;
+
+/// Trapped air at one waterline.
+struct AirSection {
+  double immersion_mm = 0;
+  Hole hole;
+};
 
 /// Film enclosed by a waterline, for example under a ring or an upside-down cup. It is cut off from
 /// the rest of the film and can only stretch. If the air above it cannot escape, water and film
@@ -19,8 +27,14 @@ struct Trap {
   /// Immersion at which the solid closes above the trap, so that air cannot escape; nullopt: the
   /// trap is open above, or its air joins that of another trap.
   std::optional<double> ceiling_mm;
-  double air_mm3 = 0;  ///< volume of the air that cannot escape
+  double air_mm3 = 0;           ///< volume of the air that cannot escape
+  std::vector<AirSection> air;  ///< its sections by increasing immersion; empty without a ceiling
 };
+
+/// Returns whether a point lies in the trapped air. Between two waterlines, the air is taken to
+/// fill the sections at both.
+/// @param point_mm  in F, where the water meets it; z is the immersion
+[[nodiscard]] bool is_in_air(const Trap& trap, const Eigen::Vector3d& point_mm);
 
 /// Finds the traps of a dip. Follows the holes that contain film from waterline to waterline, until
 /// they open again or the solid closes above them. Holes smaller than 1 mm2 are ignored.

@@ -115,6 +115,20 @@ TEST(TrappedAir, IsThatAboveTheHighestWayOut) {
   EXPECT_EQ(closed, 1);
 }
 
+TEST(TrappedAir, IsKnownByItsSections) {
+  const Waterlines closed = dipped(testing::cup(14, 18, 40, 4, false, 64));
+  ASSERT_EQ(closed.traps.size(), 1U);
+  const auto is_air = [&](double x_mm, double z_mm) {
+    return is_in_air(closed.traps[0], {x_mm, 0, z_mm});
+  };
+  EXPECT_TRUE(is_air(0, 5) && is_air(13.9, 5) && is_air(13.9, 35.95));
+  EXPECT_FALSE(is_air(14.1, 5) || is_air(18.1, 5) || is_air(13.9, 36.1) || is_air(0, -0.1));
+  for (const Trap& trap : dipped(testing::cup(14, 18, 40, 4, false, 64, 1)).traps) {
+    EXPECT_TRUE(trap.air.empty());
+    EXPECT_FALSE(is_in_air(trap, {0, 0, 5}));
+  }
+}
+
 TEST(TrappedAir, LeavesABentPipeUntilItsHigherMouthIsUnderWater) {
   const Waterlines w = dipped(upside_down_u());
   EXPECT_NEAR(film_up_to_mm(w), 6, 0.01);
