@@ -10,6 +10,7 @@ Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map, 
                  const DipOptions& options) {
   Dip dip;
   dip.figures = figures_of(first, map.surface, options);
+  dip.face_flags = face_flags(first, map.surface, options);
   dip.figures.unsettled_mm = unsettled_mm;
   dip.figures.tiles_limited = map.is_limited;
   dip.warnings = model.warnings;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -40,6 +41,7 @@ DipFigures figures_of_pass(const StokesPass& pass) {
   figures.depth_mm = pass.stokes.depth_mm;
   figures.stopped_at_edge = pass.stopped_at_edge;
   figures.traps = pass.traps;
+  for (waterline::Trap& trap : figures.traps) trap.air.clear();
   figures.coarse = pass.coarse;
   figures.sections = pass.sections;
   figures.sections_off = pass.sections_off;
@@ -65,6 +67,35 @@ std::vector<char> triangles_with_film(const mesh::Surface& surface, const flow::
     }
   }
   return out;
+}
+
+/// Returns the FaceFlags of a point: all except kClamped and kTrappedAir.
+unsigned point_flags(const flow::SurfaceMap& map, int v, const film::Profile& profile) {
+  if (std::isnan(map.film_mm[v].x())) return kNotReached;
+  unsigned out = 0;
+  if (!map.error_mm.empty() && std::isinf(map.error_mm[v])) out |= kNoAnswer;
+  if (map.least_stretch[v] < profile.wrinkle_stretch) out |= kWrinkled;
+  if (map.stretch[v] > profile.tear_stretch) out |= kTorn;
+  return out;
+}
+
+/// Distances in front of a triangle at which trapped air is looked for. The nearer point may lie in
+/// a wall at the neighbouring waterlines, the farther one beyond a narrow gap.
+constexpr std::array<double, 2> kInFront_mm = {0.05, 0.3};
+
+/// Returns whether there is trapped air in front of the middle of a triangle.
+bool faces_air(const StokesPass& pass, std::size_t t, const waterline::Motion& motion) {
+  const Eigen::Vector3i& v = pass.body.triangles[t];
+  const std::vector<Eigen::Vector3d>& points = pass.body.points_mm;
+  const Eigen::Vector3d middle = (points[v[0]] + points[v[1]] + points[v[2]]) / 3;
+  const Eigen::Vector3d normal =
+      (points[v[1]] - points[v[0]]).cross(points[v[2]] - points[v[0]]).normalized();
+  return std::ranges::any_of(kInFront_mm, [&](double distance_mm) {
+    Eigen::Vector3d point = middle + distance_mm * normal;
+    point.head<2>() += waterline::offset_at(motion, point.z());
+    return std::ranges::any_of(
+        pass.traps, [&](const waterline::Trap& trap) { return waterline::is_in_air(trap, point); });
+  });
 }
 
 /// Areas of the surface and of parts of it, mm2.
@@ -254,25 +285,24 @@ DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
 void measure_part(const mesh::Surface& surface, const waterline::Body& body,
                   const flow::SurfaceMap& map, const DipOptions& options,
                   const std::vector<char>& counted, DipFigures& figures) {
-  const film::Profile& profile = options.profile;
   Shares shares;
   std::vector<char> is_measured = counted;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const Face face = face_of(body, t);
-    const bool clamped = face.theta_rad > waterline::kThetaLimit_rad;
+    const bool is_clamped = face.theta_rad > waterline::kThetaLimit_rad;
     const double third_mm2 = face.area_mm2 / 3;
     for (int k = 0; k < 3; ++k) {
       const int v = surface.triangles[t][k];
       if (surface.is_inner(t, k)) continue;
       shares.total += third_mm2;
       if (counted[v] == 0) continue;
-      if (clamped) shares.clamped += third_mm2;
-      if (clamped) is_measured[v] = 0;
-      if (std::isnan(map.film_mm[v].x())) continue;
-      shares.reached += third_mm2;
-      if (clamped) continue;  // the map is unreliable there
-      if (map.least_stretch[v] < profile.wrinkle_stretch) shares.wrinkled += third_mm2;
-      if (map.stretch[v] > profile.tear_stretch) shares.torn += third_mm2;
+      if (is_clamped) shares.clamped += third_mm2;
+      if (is_clamped) is_measured[v] = 0;
+      const unsigned flags = point_flags(map, v, options.profile);
+      if ((flags & kNotReached) == 0) shares.reached += third_mm2;
+      if (is_clamped) continue;  // the map is unreliable there
+      if ((flags & kWrinkled) != 0) shares.wrinkled += third_mm2;
+      if ((flags & kTorn) != 0) shares.torn += third_mm2;
     }
   }
   if (shares.total > 0) {
@@ -283,6 +313,24 @@ void measure_part(const mesh::Surface& surface, const waterline::Body& body,
   }
   measure_stretch(map, is_measured, figures);
   measure_error(map, counted, options, figures);
+}
+
+std::vector<std::uint8_t> face_flags(const StokesPass& pass, const flow::SurfaceMap& map,
+                                     const DipOptions& options) {
+  std::vector<std::uint8_t> out;
+  for (std::size_t t = 0; t < pass.surface.triangles.size(); ++t) {
+    unsigned flags = 0;
+    bool is_outer = false;
+    for (int k = 0; k < 3; ++k) {
+      if (pass.surface.is_inner(t, k)) continue;
+      is_outer = true;
+      flags |= point_flags(map, pass.surface.triangles[t][k], options.profile);
+    }
+    if ((flags & kNotReached) != 0 && faces_air(pass, t, options.motion)) flags |= kTrappedAir;
+    if (is_outer && face_of(pass.body, t).theta_rad > waterline::kThetaLimit_rad) flags |= kClamped;
+    out.push_back(static_cast<std::uint8_t>(flags));
+  }
+  return out;
 }
 
 Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "sim/flow/flow_map.h"
@@ -18,6 +19,14 @@ namespace hydroprint::pipeline {
 void measure_part(const mesh::Surface& surface, const waterline::Body& body,
                   const flow::SurfaceMap& map, const DipOptions& options,
                   const std::vector<char>& counted, DipFigures& figures);
+
+/// Returns a set of FaceFlag for each triangle: those of its corners, by the same predicates as the
+/// shares in DipFigures. Corners inside other parts do not count, as in the shares. A clamped
+/// triangle may be torn or wrinkled, although the shares leave it out. A triangle with a corner
+/// without film has kTrappedAir if there is such air in front of its middle.
+[[nodiscard]] std::vector<std::uint8_t> face_flags(const StokesPass& pass,
+                                                   const flow::SurfaceMap& map,
+                                                   const DipOptions& options);
 
 /// Returns the warnings about a dip with these figures.
 [[nodiscard]] Warnings warnings_of(const DipFigures& figures, const DipOptions& options);

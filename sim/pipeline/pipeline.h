@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -94,7 +95,8 @@ struct DipFigures {
   /// Displacement of the sheet in the last sweep, where the sheet tears or folds; see
   /// sheet::SheetFlow.
   double unsettled_mm = 0;
-  std::vector<waterline::Trap> traps;            ///< trapped film and air, largest first
+  /// Trapped film and air, largest first; without Trap::air.
+  std::vector<waterline::Trap> traps;
   waterline::Coarseness coarse;                  ///< where waterlines are further apart than wanted
   std::vector<waterline::SectionArea> sections;  ///< one per waterline
   std::optional<waterline::SectionsOff> sections_off;  ///< see StokesPass
@@ -107,11 +109,23 @@ struct DipFigures {
   double worst_error_immersion_mm = 0;  ///< where the stated error is largest
 };
 
+/// Bits that tell what is wrong with a face, the property `flags` of surface_map.ply; see
+/// face_flags().
+enum FaceFlag : std::uint8_t {
+  kTorn = 1,
+  kWrinkled = 2,
+  kClamped = 4,      ///< theta exceeds 170 degrees
+  kNotReached = 8,   ///< no film arrives
+  kTrappedAir = 16,  ///< air that cannot escape keeps the film away
+  kNoAnswer = 32     ///< the stated error has no bound
+};
+
 /// The result of a dip: the surface used in the computation and the film's landing on it.
 struct Dip {
   mesh::Surface surface;
   Pose X_FO;  ///< pose as used: lowest point on the water, z = 0
   flow::FlowMap map;
+  std::vector<std::uint8_t> face_flags;  ///< for each triangle of the surface, a set of FaceFlag
   DipFigures figures;
   Warnings warnings;
 };
