@@ -20,27 +20,33 @@ constexpr std::size_t kMostPoints = 50'000'000;
 const std::string kColumnsRead =
     "property double x\nproperty double y\nproperty double z\n"
     "property double film_x\nproperty double film_y\nproperty double contact_time\n";
-constexpr std::size_t kMostDoubles = 64;
+constexpr std::size_t kMostDoubles = 64, kMostFlags = 64;
 
 /// The header that the worker writes; only its version, its counts and later columns may vary.
 struct Header {
   std::size_t points = 0, triangles = 0;
-  std::size_t doubles = 0;  ///< columns of the points
+  std::size_t doubles = 0;        ///< columns of the points
+  std::size_t flags_of_face = 0;  ///< bytes after the corners of a triangle
   bool is_good = false;
 };
 
 Header read_header(std::istream& file) {
   Header out;
   std::string columns, of_faces;
-  bool is_binary = false, has_other_types = false;
+  bool is_binary = false, has_other_types = false, has_faces = false;
   for (std::string line; std::getline(file, line) && line != "end_header";) {
     std::istringstream words(line);
     std::string first, second;
     words >> first >> second;
     is_binary = is_binary || line == "format binary_little_endian 1.0";
-    if (first == "element") words >> (second == "vertex" ? out.points : out.triangles);
+    has_faces = has_faces || second == "face";
+    if (first == "element") words >> (has_faces ? out.triangles : out.points);
     if (first != "property") continue;
-    if (second == "list") {
+    if (has_faces && second == "uchar" && !of_faces.empty()) {
+      ++out.flags_of_face;
+      continue;
+    }
+    if (has_faces) {
       of_faces += line;
       continue;
     }
@@ -49,7 +55,7 @@ Header read_header(std::istream& file) {
     ++out.doubles;
   }
   out.is_good = file && is_binary && !has_other_types && columns.starts_with(kColumnsRead) &&
-                out.doubles <= kMostDoubles &&
+                out.doubles <= kMostDoubles && out.flags_of_face <= kMostFlags &&
                 of_faces == "property list uchar int vertex_indices" && out.points <= kMostPoints &&
                 out.triangles <= kMostPoints;
   return out;
@@ -65,10 +71,11 @@ void read_points(std::istream& file, const Header& header, SurfaceMap& out) {
   }
 }
 
-void read_triangles(std::istream& file, std::size_t count, SurfaceMap& out) {
-  char bytes[1 + 3 * sizeof(std::int32_t)];
-  for (std::size_t i = 0; i < count && file.read(bytes, sizeof bytes); ++i) {
-    std::int32_t corners[3];
+void read_triangles(std::istream& file, const Header& header, SurfaceMap& out) {
+  std::int32_t corners[3];
+  char bytes[1 + sizeof corners + kMostFlags];
+  const auto size = static_cast<std::streamsize>(1 + sizeof corners + header.flags_of_face);
+  for (std::size_t i = 0; i < header.triangles && file.read(bytes, size); ++i) {
     std::memcpy(corners, bytes + 1, sizeof corners);
     const bool is_good = bytes[0] == 3 && std::all_of(corners, corners + 3, [&](std::int32_t c) {
                            return c >= 0 && static_cast<std::size_t>(c) < out.points.size();
@@ -99,7 +106,7 @@ Result<SurfaceMap> read_surface_map(const std::filesystem::path& path) {
   SurfaceMap out;
   if (header.is_good) {
     read_points(file, header, out);
-    read_triangles(file, header.triangles, out);
+    read_triangles(file, header, out);
   }
   if (header.is_good && out.points.size() == header.points &&
       out.triangles.size() == header.triangles) {

@@ -63,14 +63,18 @@ def read_png(data):
 
 
 def read_ply(data):
-    """Returns the header's lines, the names of the vertices' properties, the vertices, and the faces' bytes."""
+    """Returns the header's lines, the names of the vertices' properties, the vertices, and the triangles: 3, their corners,
+    and other properties."""
     end = data.index(b"end_header\n") + len(b"end_header\n")
     lines = data[:end].decode().splitlines()
     vertices = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
-    properties = [line.split()[1:] for line in lines if line.startswith("property") and "list" not in line]
-    layout = struct.Struct("<" + "".join(PLY_TYPES[kind] for kind, _ in properties))
-    faces = end + vertices * layout.size
-    return lines, [name for _, name in properties], layout.iter_unpack(data[end:faces]), data[faces:]
+    scalars = [line.split()[1:] for line in lines if line.startswith("property") and "list" not in line]
+    count = sum(line.startswith("property") for line in itertools.takewhile(lambda x: "element face" not in x, lines))
+    of_vertices, of_faces = (struct.Struct(start + "".join(PLY_TYPES[kind] for kind, _ in part))
+                             for start, part in (("<", scalars[:count]), ("<B3i", scalars[count:])))
+    faces = end + vertices * of_vertices.size
+    return (lines, [name for _, name in scalars[:count]], of_vertices.iter_unpack(data[end:faces]),
+            of_faces.iter_unpack(data[faces:]))
 
 
 def exr_header(data):

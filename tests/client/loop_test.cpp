@@ -120,6 +120,10 @@ TEST(Loop, InvalidSurfaceMapsAreRefused) {
   later.insert(later.find("element face"), "property double error_mm\n");
   EXPECT_TRUE(refused(later + points + triangle)) << "too short";
   EXPECT_FALSE(refused(later + points + std::string(3 * 8, '\0') + triangle));
+  std::string flagged = header;
+  flagged.insert(flagged.find("end_header"), "property uchar flags\n");
+  EXPECT_TRUE(refused(flagged + points + triangle)) << "too short";
+  EXPECT_FALSE(refused(flagged + points + triangle + '\x09'));
 }
 
 TEST(Loop, TheBoardIsFullyInViewOfTheCamera) {

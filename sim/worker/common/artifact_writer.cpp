@@ -9,7 +9,7 @@ using Path = std::filesystem::path;
 
 FileTask surface_map_file(const pipeline::Dip& dip) {
   return {"surface_map.ply", [&dip](const Path& path) {
-            return write_surface_map(path, dip.surface, dip.map.surface);
+            return write_surface_map(path, dip.surface, dip.map.surface, dip.face_flags);
           }};
 }
 

@@ -16,6 +16,7 @@
 #include <string_view>
 
 #include "sim/base/artifact_file.h"
+#include "sim/base/check.h"
 #include "sim/base/input_file.h"
 
 namespace hydroprint::worker {
@@ -41,7 +42,9 @@ std::uint8_t byte(float channel) {
 }
 
 /// @param properties  lines of the header, after x, y, z
-std::string header(std::size_t points, std::size_t triangles, const std::string& properties) {
+/// @param of_faces    likewise, after the faces' corners
+std::string header(std::size_t points, std::size_t triangles, const std::string& properties,
+                   const std::string& of_faces = {}) {
   return fmt::format(R"(ply
 format binary_little_endian 1.0
 comment hydroprint {}
@@ -51,16 +54,19 @@ property double y
 property double z
 {}element face {}
 property list uchar int vertex_indices
-end_header
+{}end_header
 )",
-                     HYDROPRINT_VERSION, points, properties, triangles);
+                     HYDROPRINT_VERSION, points, properties, triangles, of_faces);
 }
 
+/// @param flags  per triangle; empty: the header has no property for them
 Status write(const std::filesystem::path& path, const std::vector<Eigen::Vector3i>& triangles,
-             std::string bytes) {
-  for (const Eigen::Vector3i& triangle : triangles) {
+             std::string bytes, const std::vector<std::uint8_t>& flags = {}) {
+  HP_CHECK(flags.empty() || flags.size() == triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
     put(bytes, std::uint8_t{3});
-    for (const int corner : triangle) put(bytes, static_cast<std::int32_t>(corner));
+    for (const int corner : triangles[t]) put(bytes, static_cast<std::int32_t>(corner));
+    if (!flags.empty()) put(bytes, flags[t]);
   }
   return image::write_artifact(
       path, std::span(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
@@ -143,12 +149,13 @@ bool is_usable(const PlanSurface& plan) {
 }  // namespace
 
 Status write_surface_map(const std::filesystem::path& path, const mesh::Surface& surface,
-                         const flow::SurfaceMap& map) {
+                         const flow::SurfaceMap& map, const std::vector<std::uint8_t>& face_flags) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string bytes = header(surface.points.size(), surface.triangles.size(),
                              "property double film_x\nproperty double film_y\n"
                              "property double contact_time\nproperty double stretch\n"
-                             "property double stretch_min\nproperty double error_mm\n");
+                             "property double stretch_min\nproperty double error_mm\n",
+                             "property uchar flags\n");
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     put(bytes, surface.points[i]);
     const bool reached = map.film_mm[i].allFinite();
@@ -159,7 +166,7 @@ Status write_surface_map(const std::filesystem::path& path, const mesh::Surface&
     put(bytes, reached ? map.least_stretch[i] : kNone);
     put(bytes, reached && !map.error_mm.empty() ? map.error_mm[i] : kNone);
   }
-  return write(path, surface.triangles, std::move(bytes));
+  return write(path, surface.triangles, std::move(bytes), face_flags);
 }
 
 Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace hydroprint::worker {
 
 /// Writes surface_map.ply: for each point, x, y, z (O, mm), film_x, film_y (F, mm), contact_time
 /// (s), stretch, stretch_min and error_mm, as binary little-endian doubles, NaN where no film
-/// arrives; then the triangles. Returns the errors of image::write_artifact().
+/// arrives; then the triangles with their flags (pipeline::FaceFlag, uchar). Returns the errors of
+/// image::write_artifact().
 [[nodiscard]] Status write_surface_map(const std::filesystem::path& path,
-                                       const mesh::Surface& surface, const flow::SurfaceMap& map);
+                                       const mesh::Surface& surface, const flow::SurfaceMap& map,
+                                       const std::vector<std::uint8_t>& face_flags);
 
 /// Writes landed.ply: for each point, x, y, z (O, mm), red, green, blue and landed (1, or 0 where
 /// no film arrives); then the triangles. Returns the errors of image::write_artifact().

@@ -41,9 +41,9 @@ def read(path: pathlib.Path) -> Mesh:
         raise ValueError(f"{path}: the elements are {list(counts)}, not vertex and face")
     vertex = np.dtype([(name, TYPES[kind]) for name, kind in fields["vertex"]])
     vertices = np.frombuffer(data, vertex, counts["vertex"], end)
-    (_, kind), = fields["face"]
+    (_, kind), *others = fields["face"]
     _, length, index = kind.split()
-    face = np.dtype([("n", TYPES[length]), ("index", TYPES[index], 3)])
+    face = np.dtype([("n", TYPES[length]), ("index", TYPES[index], 3)] + [(name, TYPES[kind]) for name, kind in others])
     start = end + vertex.itemsize * counts["vertex"]
     faces = np.frombuffer(data, face, counts["face"], start)
     if start + face.itemsize * counts["face"] != len(data) or np.any(faces["n"] != 3):

@@ -198,6 +198,8 @@ class FileTest(unittest.TestCase):
             path.write_bytes(head + body + b"?")
             with self.assertRaises(ValueError):
                 ply.read(path)
+            path.write_bytes(head.replace(b"end_header", b"property uchar flags\nend_header") + body + b"?")
+            self.assertEqual(ply.read(path).triangles.tolist(), [[0, 0, 0]])
 
     def test_worker_that_fails_is_reported(self):
         with tempfile.TemporaryDirectory() as folder, self.assertRaises(judge.WorkerFailed):

@@ -12,19 +12,20 @@ Ply read_ply(const std::filesystem::path& path) {
   const std::string bytes = content(path);
   const std::string end = "end_header\n";
   std::size_t at = bytes.find(end) + end.size();
-  Ply ply{bytes.substr(0, at), {}, {}};
+  Ply ply{bytes.substr(0, at), {}, {}, {}};
   const auto count = [&](const std::string& what) {
     return std::stoul(ply.header.substr(ply.header.find(what) + what.size()));
   };
   ply.vertices.resize(count("element vertex "));
   ply.faces.resize(count("element face "));
-  EXPECT_EQ(bytes.size(), at + 72 * ply.vertices.size() + 13 * ply.faces.size());
+  EXPECT_EQ(bytes.size(), at + 72 * ply.vertices.size() + 14 * ply.faces.size());
   std::memcpy(ply.vertices.data(), bytes.data() + at, 72 * ply.vertices.size());
   at += 72 * ply.vertices.size();
   for (auto& face : ply.faces) {
     EXPECT_EQ(bytes[at], 3);
     std::memcpy(face.data(), bytes.data() + at + 1, 12);
-    at += 13;
+    ply.flags.push_back(static_cast<std::uint8_t>(bytes[at + 13]));
+    at += 14;
   }
   return ply;
 }

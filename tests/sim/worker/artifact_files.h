@@ -8,11 +8,13 @@
 
 namespace hydroprint::worker {
 
-/// Contents of surface_map.ply. A vertex has x, y, z, film_x, film_y, contact_time and stretch.
+/// Contents of surface_map.ply. A vertex has x, y, z, film_x, film_y, contact_time, stretch,
+/// stretch_min and error_mm.
 struct Ply {
   std::string header;
   std::vector<std::array<double, 9>> vertices;
   std::vector<std::array<std::int32_t, 3>> faces;
+  std::vector<std::uint8_t> flags;  ///< per face
 };
 
 /// Fails the test if the file's size does not match its header.

@@ -117,6 +117,8 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
                             "property double contact_time\nproperty double stretch\n"
                             "property double stretch_min\nproperty double error_mm\n"),
             std::string::npos);
+  EXPECT_TRUE(ply.header.ends_with(
+      "property list uchar int vertex_indices\nproperty uchar flags\nend_header\n"));
   std::istringstream lines(obj);
   std::size_t index = 0;
   for (std::string word; lines >> word && word == "v"; ++index) {
@@ -142,12 +144,18 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
     }
   }
   EXPECT_GT(ply.vertices.size(), index) << "faces of 3 mm must be subdivided";
-  for (const auto& face : ply.faces) {
-    for (const std::int32_t corner : face) {
+  std::set<int> all_flags;
+  for (std::size_t t = 0; t < ply.faces.size(); ++t) {
+    bool is_bare = false;
+    for (const std::int32_t corner : ply.faces[t]) {
       ASSERT_GE(corner, 0);
       ASSERT_LT(static_cast<std::size_t>(corner), ply.vertices.size());
+      is_bare = is_bare || std::isnan(ply.vertices[corner][3]);
     }
+    EXPECT_EQ((ply.flags[t] & 8) != 0, is_bare) << t;
+    all_flags.insert(ply.flags[t]);
   }
+  EXPECT_EQ(all_flags, (std::set<int>{0, 8, 12}));
 }
 
 TEST_F(Worker, ReportHasInputsParametersAndFigures) {

@@ -95,5 +95,24 @@ TEST_F(PlanPlyFile, DamagedBytesAreRefusedOrGiveUsableNumbers) {
   }
 }
 
+TEST(SurfaceMapFile, HasTheFlagsOfAFaceAfterItsCorners) {
+  const testing::TemporaryFolder folder;
+  const mesh::Surface surface = small_plan().surface;
+  const std::vector<double> none(4, kNone);
+  const flow::SurfaceMap map{std::vector<Eigen::Vector2d>(4, {kNone, kNone}), none, none, none, {}};
+  const std::filesystem::path file = folder.path() / "surface_map.ply";
+  ASSERT_TRUE(write_surface_map(file, surface, map, {0, 1, 24, 63}));
+  const std::string bytes = testing::content(file);
+  EXPECT_NE(bytes.find("vertex_indices\nproperty uchar flags\nend_header\n"), std::string::npos);
+  EXPECT_EQ(bytes.size(), bytes.find("end_header\n") + 11 + 4 * 9 * 8 + 4 * 14);
+  const std::string faces = bytes.substr(bytes.size() - 4 * 14);
+  for (std::size_t t = 0; t < 4; ++t) {
+    EXPECT_EQ(faces[14 * t], 3);
+    EXPECT_EQ(faces[14 * t + 1], surface.triangles[t][0]);
+  }
+  EXPECT_EQ((std::vector<int>{faces[13], faces[27], faces[41], faces[55]}),
+            (std::vector<int>{0, 1, 24, 63}));
+}
+
 }  // namespace
 }  // namespace hydroprint::worker
