@@ -6,14 +6,14 @@ import { placesOf, readSurfaceMap } from '../src/model/surface_map';
 const bytesOf = (text: string): ArrayBuffer => new TextEncoder().encode(text).buffer as ArrayBuffer;
 
 /** One triangle as a binary surface map, with the stretch of each vertex; NaN means that the film does not reach it. */
-function surfaceMap(stretch: number[]): ArrayBuffer {
+function surfaceMap(stretch: number[], flags = 0): ArrayBuffer {
   const head =
     'ply\nformat binary_little_endian 1.0\nelement vertex 3\n' +
     ['x', 'y', 'z', 'film_x', 'film_y', 'contact_time', 'stretch']
       .map((name) => `property double ${name}\n`)
       .join('') +
-    'element face 1\nproperty list uchar int vertex_indices\nend_header\n';
-  const out = new Uint8Array(head.length + 3 * 7 * 8 + 13);
+    'element face 1\nproperty list uchar int vertex_indices\nproperty uchar flags\nend_header\n';
+  const out = new Uint8Array(head.length + 3 * 7 * 8 + 14);
   out.set(new TextEncoder().encode(head));
   const view = new DataView(out.buffer, head.length);
   const corners = [
@@ -28,6 +28,7 @@ function surfaceMap(stretch: number[]): ArrayBuffer {
   );
   view.setUint8(168, 3);
   [0, 1, 2].forEach((index, i) => view.setInt32(169 + 4 * i, index, true));
+  view.setUint8(181, flags);
   return out.buffer;
 }
 
@@ -74,17 +75,21 @@ describe('a surface map', () => {
     expect(readSurfaceMap(bytesOf(stated)).error_mm?.[1]).toBeCloseTo(0.02);
   });
 
-  test('warnings select the triangles that they are about', () => {
-    const torn = readSurfaceMap(surfaceMap([1, 1.5, 4]));
-    const bare = readSurfaceMap(surfaceMap([1, NaN, 1]));
-    const flat = (v: readonly [number, number, number]) => v[2];
-    expect(placesOf('film_torn', torn, { tear: 3 }, flat)).toEqual([0]);
-    expect(placesOf('film_torn', torn, { tear: 5 }, flat)).toEqual([]);
-    expect(placesOf('parts_not_reached', bare, { tear: 3 }, flat)).toEqual([0]);
-    expect(placesOf('parts_not_reached', torn, { tear: 3 }, flat)).toEqual([]);
-    expect(placesOf('theta_clamped', torn, { tear: 3 }, flat)).toEqual([0]);
-    expect(placesOf('theta_clamped', torn, { tear: 3 }, (v) => -v[2])).toEqual([]);
-    expect(placesOf('face_uvs_ignored', torn, { tear: 3 }, flat)).toEqual([]);
+  test.each([
+    ['film_torn', 1],
+    ['film_wrinkled', 2],
+    ['theta_clamped', 4],
+    ['parts_not_reached', 8],
+    ['film_edge_reached', 8],
+    ['air_trapped', 16],
+    ['stretch_beyond_stokes', 0],
+  ])('the warning %s selects the triangles with its flag', (code, flag) => {
+    expect(placesOf(code, readSurfaceMap(surfaceMap([1, 4, NaN], flag)))).toEqual(flag ? [0] : []);
+    expect(placesOf(code, readSurfaceMap(surfaceMap([1, 4, NaN], 63 - flag)))).toEqual([]);
+  });
+
+  test('without flags has no triangles for warnings', () => {
+    expect(placesOf('film_torn', readSurfaceMap(bytesOf(text)))).toEqual([]);
   });
 
   test('is refused if it is incomplete', () => {

@@ -14,6 +14,8 @@ export interface SurfaceMap {
   stretch: Float32Array;
   /** Stated error of the place on the film, mm; Infinity where no bound is known. Undefined in results of older builds. */
   error_mm: Float32Array | undefined;
+  /** What the worker found wrong with each triangle, as bits. Empty in results of older builds. */
+  flags: Uint8Array;
   /** Bounding box, mm. */
   box: { min: readonly [number, number, number]; max: readonly [number, number, number] };
   contactMax_s: number;
@@ -36,60 +38,25 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
   let contactMax_s = 0;
   for (const t of contact_s) if (t > contactMax_s) contactMax_s = t;
   const error_mm = columnsOf(vertex, ['error_mm']);
-  return { positions, indices, film_mm, contact_s, stretch, error_mm, box, contactMax_s };
+  const flags = Uint8Array.from(elements.get('face')?.columns.get('flags') ?? []);
+  return { positions, indices, film_mm, contact_s, stretch, error_mm, flags, box, contactMax_s };
 }
+
+/** Bits of `flags` by the code of the warning that they belong to. */
+const kFlags: Readonly<Record<string, number>> = {
+  film_torn: 1,
+  film_wrinkled: 2,
+  theta_clamped: 4,
+  parts_not_reached: 8,
+  film_edge_reached: 8,
+  air_trapped: 16,
+};
 
 /** Returns the indices of the triangles that a warning is about; empty if it is not about parts of the surface. */
-export function placesOf(
-  code: string,
-  map: SurfaceMap,
-  limits: { tear: number },
-  up: UpOf,
-): number[] {
-  const isThere = testOf(code, map, limits, up);
-  if (!isThere) return [];
+export function placesOf(code: string, map: SurfaceMap): number[] {
   const out: number[] = [];
-  for (let face = 0; face < map.indices.length / 3; face += 1) if (isThere(face)) out.push(face);
+  map.flags.forEach((flags, face) => {
+    if (flags & (kFlags[code] ?? 0)) out.push(face);
+  });
   return out;
-}
-
-/** Returns the z component of a direction of frame O after the object's rotation; 1 is straight up. */
-export type UpOf = (direction: readonly [number, number, number]) => number;
-
-function testOf(
-  code: string,
-  map: SurfaceMap,
-  limits: { tear: number },
-  up: UpOf,
-): ((face: number) => boolean) | undefined {
-  const corner = (face: number, i: number) => map.indices[3 * face + i]!;
-  const any = (of: (vertex: number) => boolean) => (face: number) =>
-    of(corner(face, 0)) || of(corner(face, 1)) || of(corner(face, 2));
-  switch (code) {
-    case 'parts_not_reached':
-    case 'film_edge_reached':
-    case 'air_trapped':
-      return any((vertex) => Number.isNaN(map.stretch[vertex]));
-    case 'film_torn':
-      return any((vertex) => map.stretch[vertex]! > limits.tear);
-    case 'stretch_beyond_stokes':
-      return any((vertex) => map.stretch[vertex]! > 1.3);
-    case 'theta_clamped':
-      return (face) => up(normalOf(map, face)) > Math.cos((10 * Math.PI) / 180);
-    default:
-      return undefined;
-  }
-}
-
-function normalOf(map: SurfaceMap, face: number): readonly [number, number, number] {
-  const at = (i: number, axis: number) => map.positions[3 * map.indices[3 * face + i]! + axis]!;
-  const a = [0, 1, 2].map((k) => at(1, k) - at(0, k));
-  const b = [0, 1, 2].map((k) => at(2, k) - at(0, k));
-  const n = [
-    a[1]! * b[2]! - a[2]! * b[1]!,
-    a[2]! * b[0]! - a[0]! * b[2]!,
-    a[0]! * b[1]! - a[1]! * b[0]!,
-  ] as const;
-  const length = Math.hypot(...n) || 1;
-  return [n[0] / length, n[1] / length, n[2] / length];
 }

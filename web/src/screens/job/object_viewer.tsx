@@ -110,11 +110,8 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
   }, [view, mode, shown_s]);
 
   useEffect(() => {
-    const start = startOf(results);
-    if (!view || !map || !start) return;
-    const place = pointed && placeOf(pointed.where);
-    const up = (v: readonly [number, number, number]) => rotate(start.rotation, v)[2];
-    view.point(pointed && !place ? placesOf(pointed.code, map, { tear }, up) : [], place);
+    if (!view || !map) return;
+    view.point(pointed ? placesOf(pointed.code, map) : [], pointed && placeOf(pointed.where));
   }, [view, pointed]);
 
   return (
