@@ -1,5 +1,7 @@
 #include "client/dip.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -14,6 +16,16 @@ constexpr std::array kOperatorSteps{v1::DipStatus::PRINT_FILM,      v1::DipStatu
 
 bool waits_for_operator(v1::DipStatus::Step step) {
   return std::find(kOperatorSteps.begin(), kOperatorSteps.end(), step) != kOperatorSteps.end();
+}
+
+std::string which_dip(int number, int count) {
+  return fmt::format("dip {} of {}: ", number, count);
+}
+
+std::string instruction_of(const v1::DipStatus& status) {
+  const bool has_plan = status.immersion() != 0 && !status.instruction().empty();
+  return (has_plan ? which_dip(status.immersion(), status.immersions()) : "") +
+         status.instruction();
 }
 
 std::vector<std::string> operator_steps() {

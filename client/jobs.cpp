@@ -169,6 +169,11 @@ Result<v1::PlanProgress> plan_progress(Connection& connection, const std::string
               named<v1::GetPlanProgressRequest>(plan_job));
 }
 
+Result<v1::JobReport> job_report(Connection& connection, const std::string& name) {
+  return call(connection, *connection.impl().jobs, &JobStub::GetJobReport,
+              named<v1::GetJobReportRequest>(name));
+}
+
 Result<v1::Job> watch_job(Connection& connection, const std::string& name,
                           const std::function<void(const v1::WatchJobResponse&)>& update,
                           const std::function<void(const Error&)>& lost) {

@@ -84,6 +84,9 @@ struct JobFilter {
 [[nodiscard]] Result<v1::PlanProgress> plan_progress(Connection& connection,
                                                      const std::string& plan_job);
 
+/// Returns the report of a job. Errors: ARTIFACT_NOT_FOUND, ARTIFACT_DAMAGED.
+[[nodiscard]] Result<v1::JobReport> job_report(Connection& connection, const std::string& name);
+
 /// Follows a job until it is finished and reports each message of the stream. Resumes after a lost
 /// connection, for up to a minute after the last message from the daemon.
 /// @param lost  called once each time the connection is lost

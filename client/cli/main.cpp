@@ -46,6 +46,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_watch(app, program);
   add_list(app, program);
   add_show(app, program);
+  add_report(app, program);
   add_events(app, program);
   add_cancel(app, program);
   add_retry(app, program);

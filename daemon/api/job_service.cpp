@@ -6,6 +6,7 @@
 #include "daemon/jobs/job_request.h"
 #include "daemon/jobs/plan_facts.h"
 #include "daemon/jobs/registry.h"
+#include "daemon/jobs/report.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/rpc/caller_metadata.h"
@@ -71,6 +72,14 @@ class JobService final : public v1::JobService::Service {
     auto progress = plan_progress(*context, request->name());
     if (!progress) return to_grpc(progress.error());
     *reply = std::move(*progress);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status GetJobReport(grpc::ServerContext* context, const v1::GetJobReportRequest* request,
+                            v1::JobReport* reply) override {
+    auto report = this->report(*context, request->name());
+    if (!report) return to_grpc(report.error());
+    *reply = std::move(*report);
     return grpc::Status::OK;
   }
 
@@ -157,6 +166,17 @@ class JobService final : public v1::JobService::Service {
     HP_RETURN_IF_ERROR(check_may_see(caller, plan));
     HP_ASSIGN_OR_RETURN(const PlanFacts facts, plan_facts(name, caller.name, sources()));
     return progress_of(facts);
+  }
+
+  Result<v1::JobReport> report(const grpc::ServerContext& context, const std::string& name) const {
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
+    HP_ASSIGN_OR_RETURN(const Job job, get(name));
+    HP_RETURN_IF_ERROR(check_may_see(caller, job));
+    HP_RETURN_IF_ERROR(backend_.jobs.artifact(job.id, kReport));
+    auto report = read_report(backend_.layout.artifacts(job.id), job.definition.work.verb);
+    if (report && report->report_case() == v1::JobReport::REPORT_NOT_SET)
+      return fail(Code::kNotFound, name + " has no report", "ARTIFACT_NOT_FOUND");
+    return report;
   }
 
   [[nodiscard]] JobSources sources() const {

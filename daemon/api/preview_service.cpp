@@ -1,11 +1,11 @@
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "daemon/api/services.h"
 #include "daemon/auth/visibility.h"
+#include "daemon/rest/json_text.h"
 #include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
@@ -16,34 +16,21 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Copies the warnings of the worker. Throws an exception of the JSON library if a key is missing.
-void add_warnings(const Json& head, v1::Preview& out) {
-  for (const Json& entry : head.at("warnings")) {
-    v1::Preview::Warning& warning = *out.add_warnings();
-    warning.set_code(entry.at("code").get<std::string>());
-    warning.set_message(entry.at("message").get<std::string>());
-    warning.set_where(entry.at("where").get<std::string>());
-  }
+// Reads a message that the worker wrote as JSON.
+void read_message(const Json& json, google::protobuf::Message& out) {
+  const Status read = rest::read_json(json.dump(), out, out.GetDescriptor()->name());
+  if (!read) throw Json::other_error::create(0, read.error().message, &json);
 }
 
 void add_model(PreviewFrame frame, v1::DisplayModel& out) {
-  const Json head = Json::parse(frame.head);
-  google::protobuf::util::JsonParseOptions options;
-  options.ignore_unknown_fields = true;
-  const auto read = google::protobuf::util::JsonStringToMessage(head.at("summary").dump(),
-                                                                out.mutable_summary(), options);
-  if (!read.ok()) throw Json::other_error::create(0, read.ToString(), &head);
+  read_message(Json::parse(frame.head).at("summary"), *out.mutable_summary());
   out.set_glb(std::move(frame.bytes));
 }
 
 void add_dip(PreviewFrame frame, v1::Preview& out) {
   const Json head = Json::parse(frame.head);
   const auto number = [](const Json& json) { return json.is_number() ? json.get<double>() : NAN; };
-  for (const double x : head.at("pose").at("rotation_wxyz"))
-    out.mutable_pose()->add_rotation_wxyz(x);
-  for (const double x : head.at("pose").at("translation_mm")) {
-    out.mutable_pose()->add_translation_mm(x);
-  }
+  read_message(head.at("pose"), *out.mutable_pose());
   out.set_depth_mm(number(head.at("depth_mm")));
   out.set_coverage(number(head.at("coverage")));
   out.set_theta_clamped_share(number(head.at("theta_clamped_share")));
@@ -51,7 +38,7 @@ void add_dip(PreviewFrame frame, v1::Preview& out) {
   out.set_stretch_p95(number(head.at("stretch").at("p95")));
   out.set_stretch_max(number(head.at("stretch").at("max")));
   out.set_seconds(number(head.at("seconds")));
-  add_warnings(head, out);
+  for (const Json& warning : head.at("warnings")) read_message(warning, *out.add_warnings());
   out.set_vertex_map(std::move(frame.bytes));
 }
 

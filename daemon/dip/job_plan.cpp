@@ -2,75 +2,54 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/referenced_job.h"
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/base/pose_uncertainty.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-using Json = nlohmann::json;
-
-constexpr const char* kReport = "report.json";
-
 /// Takes numbers from a report and keeps the first error.
-class ReportReader {
+class Checked {
  public:
-  explicit ReportReader(const Json& report) : report_(report) {}
-
-  double number(const std::string& pointer, double least, double most) {
-    const Json::json_pointer place(pointer);
-    if (report_.contains(place) && report_.at(place).is_number()) {
-      const double value = report_.at(place).get<double>();
-      if (value >= least && value <= most) return value;
-    }
+  double number(const char* name, double value, double least, double most) {
+    if (value >= least && value <= most) return value;
     if (status_) {
-      status_ = fail(
-          Code::kFailedPrecondition,
-          fmt::format("{} of the simulation: {} is not a number from {:g} to {:g}; "
-                      "simulate again, or set all values taken from this file in the dip's spec",
-                      kReport, pointer, least, most),
-          "STATE_FORBIDS");
+      status_ = fail(Code::kFailedPrecondition,
+                     fmt::format("report of the simulation: {} is not a number from {:g} to {:g}; "
+                                 "simulate again, or set all values taken from it in the dip's "
+                                 "spec",
+                                 name, least, most),
+                     "STATE_FORBIDS");
     }
     return 0;
-  }
-  [[nodiscard]] bool is_round() const {
-    const Json::json_pointer place("/parameters/film/name");
-    if (!report_.contains(place) || !report_.at(place).is_string()) return false;
-    return report_.at(place).get<std::string>().starts_with("circle:");
-  }
-  [[nodiscard]] bool has(const std::string& pointer) const {
-    return report_.contains(Json::json_pointer(pointer));
   }
   [[nodiscard]] const Status& status() const { return status_; }
 
  private:
-  const Json& report_;
   Status status_;
 };
 
 /// Returns the area of the film; for a polygon, the area of its bounding box.
-double film_area_mm2(ReportReader& reader) {
-  double area_mm2 = reader.is_round() ? std::numbers::pi / 4 : 1;
-  for (const char* axis : {"0", "1"}) {
-    const std::string film = "/parameters/film/";
-    const double least = reader.number(film + "min_mm/" + axis, -2000, 2000);
-    const double most = reader.number(film + "max_mm/" + axis, -2000, 2000);
-    area_mm2 *= std::max(0.0, most - least);
+double film_area_mm2(const v1::FilmFacts& film, Checked& checked) {
+  double area_mm2 = film.name().starts_with("circle:") ? std::numbers::pi / 4 : 1;
+  for (const int axis : {0, 1}) {
+    const bool is_there = film.min_mm_size() > axis && film.max_mm_size() > axis;
+    const double side_mm = is_there ? film.max_mm(axis) - film.min_mm(axis) : 0;
+    area_mm2 *= checked.number("the size of the film", side_mm, 1e-3, 4000);
   }
   return area_mm2;
 }
 
 Result<SimulatedDip> simulated_dip(const std::string& name, JobStore& jobs, const Layout& layout) {
   HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "simulate", "dip.simulate_job", jobs));
-  HP_ASSIGN_OR_RETURN(const std::string report, report_of(job, layout));
-  return read_simulated_dip(report);
+  HP_ASSIGN_OR_RETURN(const v1::JobReport report, report_of(job, layout));
+  return read_simulated_dip(report.simulate());
 }
 
 void fill_from(const SimulatedDip& simulated, dip::Plan& plan) {
@@ -105,8 +84,8 @@ void fill_from(const v1::DipSpec& spec, dip::Plan& plan) {
 
 /// Adds the warnings of an uncertain pose: that of a simulation or of a calibration.
 template <class Message>
-void doubt(const Message& stated, const std::string& where, dip::Plan& plan) {
-  for (Warning& warning : pose_warnings(uncertainty_of(stated), where)) {
+void doubt(const Message& stated, const std::string& source, dip::Plan& plan) {
+  for (Warning& warning : pose_warnings(uncertainty_of(stated), {OfResource{source}})) {
     plan.warnings.push_back(std::move(warning));
     plan.has_uncertain_pose = true;
   }
@@ -114,23 +93,26 @@ void doubt(const Message& stated, const std::string& where, dip::Plan& plan) {
 
 }  // namespace
 
-Result<SimulatedDip> read_simulated_dip(const std::string& report) {
-  const Json json = Json::parse(report, nullptr, false);
-  ReportReader reader(json);
+Result<SimulatedDip> read_simulated_dip(const v1::SimulateReport& report) {
+  Checked checked;
+  const v1::DipFacts& dip = report.parameters().dip();
   SimulatedDip out;
-  out.depth_mm = reader.number("/depth_mm", 1e-3, 1e6);
-  out.speed_mm_per_s = reader.number("/parameters/dip_speed_mm_per_s", 1e-3, 1000);
-  out.film_area_mm2 = film_area_mm2(reader);
-  const std::string profile = "/parameters/profile/";
-  out.activator_ml_per_m2 = reader.number(profile + "activator_ml_per_m2", 0, 1000);
-  out.soak_s = reader.number(profile + "soak_s", 0, 3600);
-  out.activator_wait_s = reader.number(profile + "activator_wait_s", 0, 3600);
-  if (reader.has("/plan")) {
-    out.immersion = static_cast<int>(reader.number("/plan/immersion", 1, 12));
-    out.immersions = static_cast<int>(reader.number("/plan/immersions", 1, 12));
-    out.warnings = report_warnings(report, kPlanWarnings);
+  out.depth_mm = checked.number("depth_mm", report.flow().depth_mm(), 1e-3, 1e6);
+  out.speed_mm_per_s = checked.number("dip_speed_mm_per_s", dip.dip_speed_mm_per_s(), 1e-3, 1000);
+  out.film_area_mm2 = film_area_mm2(dip.film(), checked);
+  const v1::ProfileFacts& profile = dip.profile();
+  out.activator_ml_per_m2 =
+      checked.number("activator_ml_per_m2", profile.activator_ml_per_m2(), 0, 1000);
+  out.soak_s = checked.number("soak_s", profile.soak_s(), 0, 3600);
+  out.activator_wait_s = checked.number("activator_wait_s", profile.activator_wait_s(), 0, 3600);
+  if (report.has_plan()) {
+    out.immersion = static_cast<int>(checked.number("immersion", report.plan().immersion(), 1, 12));
+    out.immersions =
+        static_cast<int>(checked.number("immersions", report.plan().immersions(), 1, 12));
+    for (const v1::Warning& warning : plan_warnings(report))
+      out.warnings.push_back(to_warning(warning));
   }
-  HP_RETURN_IF_ERROR(reader.status());
+  HP_RETURN_IF_ERROR(checked.status());
   return out;
 }
 
@@ -143,11 +125,11 @@ Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout&
     fill_from(simulated, plan);
     if (spec.has_depth_mm() && spec.depth_mm() > simulated.depth_mm) {
       plan.warnings.push_back(
-          {"deeper_than_simulated",
+          {WarningCode::DEEPER_THAN_SIMULATED,
            fmt::format("the dip is deeper than the simulated {:g} mm; the film image "
                        "was not computed for greater depths",
                        simulated.depth_mm),
-           spec.simulate_job()});
+           {OfResource{spec.simulate_job()}}});
     }
   }
   fill_from(spec, plan);
@@ -173,16 +155,16 @@ Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationSto
   plan.calibration = calibration.name();
   if (!why.words.empty()) {
     plan.warnings.push_back(
-        {"calibration_stale",
+        {WarningCode::CALIBRATION_STALE,
          fmt::format("{} is no longer valid: {}", calibration.name(), why.words),
-         calibration.name()});
+         {OfResource{calibration.name()}}});
   }
   if (!spec.simulate_job().empty() && simulated.calibration().empty()) {
     plan.warnings.push_back(
-        {"pose_not_simulated",
+        {WarningCode::POSE_NOT_SIMULATED,
          fmt::format("{} was not computed for the pose of {}; the print may not fit",
                      spec.simulate_job(), calibration.name()),
-         spec.simulate_job()});
+         {OfResource{spec.simulate_job()}}});
   }
   if (simulated.calibration() != calibration.name()) {
     doubt(calibration, calibration.name(), plan);

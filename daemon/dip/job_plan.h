@@ -7,7 +7,8 @@
 
 namespace hydroprint::v1 {
 class DipSpec;
-}
+class SimulateReport;
+}  // namespace hydroprint::v1
 
 namespace hydroprint::daemon {
 
@@ -24,9 +25,9 @@ struct SimulatedDip {
   Warnings warnings;   ///< about differences from that plan
 };
 
-/// Reads the parameters from an untrusted report.
-/// @return kFailedPrecondition, STATE_FORBIDS, naming the key that is missing or out of range
-[[nodiscard]] Result<SimulatedDip> read_simulated_dip(const std::string& report);
+/// Takes the parameters from an untrusted report.
+/// @return kFailedPrecondition, STATE_FORBIDS, naming the value that is out of range
+[[nodiscard]] Result<SimulatedDip> read_simulated_dip(const v1::SimulateReport& report);
 
 /// Creates the plan of a checked spec; missing values come from its simulate job and the defaults.
 /// @return JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or has no usable report;

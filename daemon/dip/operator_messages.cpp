@@ -5,23 +5,15 @@
 namespace hydroprint::dip {
 namespace {
 
-/// Returns "dip 2 of 3: ", or nothing for a dip without a plan.
-std::string which(const Plan& plan) {
-  if (plan.immersion == 0) return "";
-  return fmt::format("dip {} of {}: ", plan.immersion, plan.immersions);
-}
-
 std::string print_film(const Plan& plan) {
   const std::string image =
       plan.simulate_job.empty() ? "the film image" : "the film image of " + plan.simulate_job;
-  if (!plan.has_uncertain_pose) {
-    return fmt::format("{}print {} at its full size and let it dry; then confirm", which(plan),
-                       image);
-  }
-  return fmt::format(
-      "{}the object's pose is uncertain (see the warnings): abort and calibrate again, or accept a "
-      "misplaced print: print {} at its full size and let it dry; then confirm",
-      which(plan), image);
+  return fmt::format("{}print {} at its full size and let it dry; then confirm",
+                     plan.has_uncertain_pose
+                         ? "the object's pose is uncertain (see the warnings): abort and "
+                           "calibrate again, or accept a misplaced print: "
+                         : "",
+                     image);
 }
 
 std::string find_contact(const Plan& plan) {
@@ -42,7 +34,7 @@ std::string instruction(Step step, const Plan& plan) {
     case Step::kPrintFilm:
       return print_film(plan);
     case Step::kLoadObject:
-      return which(plan) + "mount the object in the gripper as planned; then confirm";
+      return "mount the object in the gripper as planned; then confirm";
     case Step::kFindContact:
       return find_contact(plan);
     case Step::kClear:
@@ -85,9 +77,9 @@ std::string afterwards(const Plan& plan) {
   if (plan.immersion == 0)
     return "take the object out, rinse off the rest of the film, and let it dry";
   return fmt::format(
-      "dip {} of {} is done: skim the rest of the film off the water, take the object out, rinse "
-      "it and let it dry; the plan{} states what comes next",
-      plan.immersion, plan.immersions, plan.plan_job.empty() ? "" : " " + plan.plan_job);
+      "skim the rest of the film off the water, take the object out, rinse it and let it dry; the "
+      "plan{} states what comes next",
+      plan.plan_job.empty() ? "" : " " + plan.plan_job);
 }
 
 std::string advice(Step step) {

@@ -3,77 +3,58 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <nlohmann/json.hpp>
+
+#include "proto/warning_message.h"
+#include "proto/write_json.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::dip {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+void add_parameters(const Plan& plan, v1::DipReport::Parameters& out) {
+  out.set_depth_mm(plan.depth_mm);
+  out.set_speed_mm_per_s(plan.speed_mm_per_s);
+  out.set_hold_s(plan.hold_s);
+  out.set_retract_speed_mm_per_s(plan.retract_speed_mm_per_s);
+  out.set_clearance_mm(plan.clearance_mm);
+  out.set_film_area_mm2(plan.film_area_mm2);
+  out.set_activator_ml_per_m2(plan.activator_ml_per_m2);
+  out.set_activator_ml(plan.activator_ml());
+  out.set_soak_s(plan.clocks.soak_s);
+  out.set_activator_wait_s(plan.clocks.activator_wait_s);
+  out.set_activation_window_s(plan.clocks.activation_window_s);
+  out.set_yes_to_all(plan.clocks.skip);
+  if (plan.water_temperature_c) out.set_water_temperature_c(*plan.water_temperature_c);
 }
 
-Json plan_json(const Plan& plan) {
-  return {{"depth_mm", plan.depth_mm},
-          {"speed_mm_per_s", plan.speed_mm_per_s},
-          {"hold_s", plan.hold_s},
-          {"retract_speed_mm_per_s", plan.retract_speed_mm_per_s},
-          {"clearance_mm", plan.clearance_mm},
-          {"film_area_mm2", plan.film_area_mm2},
-          {"activator_ml_per_m2", plan.activator_ml_per_m2},
-          {"activator_ml", plan.activator_ml()},
-          {"soak_s", plan.clocks.soak_s},
-          {"activator_wait_s", plan.clocks.activator_wait_s},
-          {"activation_window_s", plan.clocks.activation_window_s},
-          {"yes_to_all", plan.clocks.skip}};
+void add_step(const StepRecord& step, v1::DipReport::Step& out) {
+  out.set_step(std::string(name(step.step)));
+  out.set_begin_s(step.begin_s);
+  if (step.end_s) out.set_end_s(*step.end_s);
+  if (step.planned_s) out.set_planned_s(*step.planned_s);
+  if (step.end_s) out.set_actual_s(*step.end_s - step.begin_s);
+  out.set_confirmed_by(step.confirmed_by);
 }
 
-Json steps_json(const std::vector<StepRecord>& steps) {
-  Json out = Json::array();
-  for (const StepRecord& step : steps) {
-    Json entry = {{"step", name(step.step)},
-                  {"begin_s", step.begin_s},
-                  {"end_s", optional(step.end_s)},
-                  {"planned_s", optional(step.planned_s)}};
-    entry["actual_s"] = step.end_s ? Json(*step.end_s - step.begin_s) : Json();
-    if (!step.confirmed_by.empty()) entry["confirmed_by"] = step.confirmed_by;
-    out.push_back(std::move(entry));
-  }
-  return out;
+void add_axis(const Facts& facts, v1::DipReport::Axis& out) {
+  if (facts.stand.loaded_mm) out.set_loaded_mm(*facts.stand.loaded_mm);
+  if (facts.stand.contact_mm) out.set_contact_mm(*facts.stand.contact_mm);
+  out.set_contact_from_calibration(facts.plan.contact_mm.has_value());
+  if (!facts.ways) return;
+  out.set_clear_mm(facts.ways->clear_mm);
+  out.set_bottom_mm(facts.ways->bottom_mm);
+  out.set_up_mm(facts.ways->up_mm);
 }
 
-Json axis_json(const Facts& facts) {
-  Json out = {{"loaded_mm", optional(facts.stand.loaded_mm)},
-              {"contact_mm", optional(facts.stand.contact_mm)},
-              {"contact_from_calibration", facts.plan.contact_mm.has_value()}};
-  if (!facts.ways) return out;
-  out["clear_mm"] = facts.ways->clear_mm;
-  out["bottom_mm"] = facts.ways->bottom_mm;
-  out["up_mm"] = facts.ways->up_mm;
-  return out;
-}
-
-Json descent_json(const Facts& facts) {
-  if (!facts.descent) return {};
+void add_descent(const Facts& facts, v1::DipReport::Descent& out) {
   const rig::ConstantSpeed& was = *facts.descent;
-  return {{"speed_asked_mm_per_s", facts.plan.speed_mm_per_s},
-          {"speed_mm_per_s", was.speed_mm_per_s},
-          {"largest_deviation_share", was.largest_share},
-          {"largest_deviation_mm", was.largest_way_mm},
-          {"deviation_uncertainty_mm", was.way_uncertainty_mm},
-          {"window_s", was.window_s},
-          {"samples", was.samples}};
-}
-
-Json warnings_json(const Warnings& warnings) {
-  Json out = Json::array();
-  for (const Warning& warning : warnings) {
-    out.push_back({{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
-  }
-  return out;
+  out.set_speed_asked_mm_per_s(facts.plan.speed_mm_per_s);
+  out.set_speed_mm_per_s(was.speed_mm_per_s);
+  out.set_largest_deviation_share(was.largest_share);
+  out.set_largest_deviation_mm(was.largest_way_mm);
+  out.set_deviation_uncertainty_mm(was.way_uncertainty_mm);
+  out.set_window_s(was.window_s);
+  out.set_samples(static_cast<std::int32_t>(was.samples));
 }
 
 tl::unexpected<Error> not_written(const std::filesystem::path& path) {
@@ -83,37 +64,31 @@ tl::unexpected<Error> not_written(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string report_json(const Facts& facts) {
-  return dump({{"program", "hydroprintd"},
-               {"version", HYDROPRINT_VERSION},
-               {"verb", "dip"},
-               {"job", facts.job},
-               {"create_time", facts.create_time},
-               {"outcome", facts.outcome},
-               {"reason", facts.reason},
-               {"message", facts.message},
-               {"step", name(facts.stand.step)},
-               {"simulate_job", facts.plan.simulate_job},
-               {"calibration", facts.plan.calibration},
-               {"lease_holder", facts.lease_holder},
-               {"drive", facts.drive},
-               {"virtual", facts.is_virtual},
-               {"parameters", plan_json(facts.plan)},
-               {"water_temperature_c", optional(facts.plan.water_temperature_c)},
-               {"axis", axis_json(facts)},
-               {"depth_reached_mm", optional(facts.deepest_mm)},
-               {"descent", descent_json(facts)},
-               {"steps", steps_json(facts.steps)},
-               {"warnings", warnings_json(facts.warnings)},
-               {"artifacts", {PositionLog::kName, kReportName}}});
-}
-
-std::string interrupted_report(const std::string& json, const std::string& message) {
-  Json report = Json::parse(json, nullptr, false);
-  if (!report.is_object()) return json;
-  report["outcome"] = name(Ending::kInterrupted);
-  report["message"] = message;
-  return dump(report);
+v1::DipReport report_of(const Facts& facts) {
+  v1::DipReport out;
+  v1::RunFacts& run = *out.mutable_run();
+  run.set_program("hydroprintd");
+  run.set_version(HYDROPRINT_VERSION);
+  run.set_verb("dip");
+  add_warnings(facts.warnings, *run.mutable_warnings());
+  run.add_artifacts(PositionLog::kName);
+  out.set_job(facts.job);
+  out.set_create_time(facts.create_time);
+  out.set_outcome(facts.outcome);
+  out.set_reason(facts.reason);
+  out.set_message(one_line(facts.message));
+  out.set_step(std::string(name(facts.stand.step)));
+  out.set_simulate_job(facts.plan.simulate_job);
+  out.set_calibration(facts.plan.calibration);
+  out.set_lease_holder(facts.lease_holder);
+  out.set_drive(one_line(facts.drive));
+  out.set_virtual_(facts.is_virtual);
+  add_parameters(facts.plan, *out.mutable_parameters());
+  add_axis(facts, *out.mutable_axis());
+  if (facts.deepest_mm) out.set_depth_reached_mm(*facts.deepest_mm);
+  if (facts.descent) add_descent(facts, *out.mutable_descent());
+  for (const StepRecord& step : facts.steps) add_step(step, *out.add_steps());
+  return out;
 }
 
 rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples, std::uint64_t motion,
@@ -145,8 +120,9 @@ Status PositionLog::flush() {
   return not_written(path_);
 }
 
-Status write_report(const std::filesystem::path& folder, const std::string& json) {
-  const auto path = folder / kReportName;
+Status write_report(const std::filesystem::path& folder, const v1::DipReport& report) {
+  HP_ASSIGN_OR_RETURN(const std::string json, json_file_of(report));
+  const auto path = folder / "report.json";
   const auto next = folder / "report.next";
   std::ofstream file(next, std::ios::binary | std::ios::trunc);
   file << json;

@@ -9,6 +9,7 @@
 
 #include "daemon/dip/plan.h"
 #include "hardware/rig/samples.h"
+#include "hydroprint/v1/report.pb.h"
 
 namespace hydroprint::dip {
 
@@ -40,12 +41,8 @@ struct Facts {
   std::string message;
 };
 
-/// Returns the report as a JSON object.
-[[nodiscard]] std::string report_json(const Facts& facts);
-
-/// Returns the report `json` of a dip that was open when the daemon ended, with the outcome
-/// INTERRUPTED. Returns the text unchanged if it is not a JSON object.
-[[nodiscard]] std::string interrupted_report(const std::string& json, const std::string& message);
+/// Returns the content of report.json.
+[[nodiscard]] v1::DipReport report_of(const Facts& facts);
 
 /// Evaluates how constant the speed of the descent was below first contact.
 [[nodiscard]] rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples,
@@ -71,10 +68,8 @@ class PositionLog {
   std::ofstream file_;
 };
 
-inline constexpr const char* kReportName = "report.json";
-
 /// Writes report.json atomically: after an error, the previous file remains. Errors:
 /// kResourceExhausted, DISK_FULL.
-[[nodiscard]] Status write_report(const std::filesystem::path& folder, const std::string& json);
+[[nodiscard]] Status write_report(const std::filesystem::path& folder, const v1::DipReport& report);
 
 }  // namespace hydroprint::dip

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "daemon/dip/operator_messages.h"
+#include "daemon/jobs/report.h"
 #include "daemon/platform/durable_file.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
@@ -16,7 +17,7 @@
 #include "hardware/rig/errors.h"
 #include "hardware/rig/limits.h"
 #include "hydroprint/v1/job.pb.h"
-#include "sim/base/input_file.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -34,7 +35,6 @@ constexpr std::chrono::seconds kStoreAgainAfter{1};
 constexpr double kRestMargin_s = 1;
 constexpr std::size_t kMostSamples =
     500'000;  // maximum number of descent samples, from which the speed is computed
-constexpr std::size_t kLargestRecord = 16 << 20;
 
 JobState job_state(const dip::Stand& stand) {
   return dip::awaits(stand.step) == dip::Awaits::kOperator ? JobState::kWaitingForOperator
@@ -77,7 +77,7 @@ v1::DipStatus status_of(Step step, const std::string& instruction, const dip::Pl
 
 std::string first_dip_status(const dip::Plan& plan) {
   v1::DipStatus out = status_of(Step::kPrintFilm, dip::instruction(Step::kPrintFilm, plan), plan);
-  for (const Warning& warning : plan.warnings) out.add_warnings(warning.message);
+  add_warnings(plan.warnings, *out.mutable_warnings());
   return out.SerializeAsString();
 }
 
@@ -192,8 +192,9 @@ void DipSession::adopt(const dip::Stand& next) {
   const dip::Stand before = std::exchange(stand_, next);
   if (next.late && !before.late) {
     const double ago_s = seconds_at(SteadyClock::now()) - *next.sprayed_s;
-    facts_.warnings.push_back(
-        {"film_late", dip::late_words(ago_s, facts_.plan.clocks), std::string(name(next.step))});
+    facts_.warnings.push_back({WarningCode::FILM_LATE,
+                               dip::late_words(ago_s, facts_.plan.clocks),
+                               {OfItem{std::string(name(next.step))}}});
     publish(facts_.warnings.back().message);
   }
   if (next.step != before.step) {
@@ -352,7 +353,7 @@ std::string DipSession::status() const {
         time_of(wall_ms(*stand_.sprayed_s + clocks.activator_wait_s + clocks.activation_window_s));
   }
   if (stand_.contact_mm) out.set_contact_mm(*stand_.contact_mm);
-  for (const Warning& warning : facts_.warnings) out.add_warnings(warning.message);
+  add_warnings(facts_.warnings, *out.mutable_warnings());
   return out.SerializeAsString();
 }
 
@@ -370,7 +371,7 @@ void DipSession::publish(const std::string& message) {
 void DipSession::write_record() {
   facts_.stand = stand_;
   note_record(log_.flush());
-  note_record(dip::write_report(dependencies_.layout.dip(job_), dip::report_json(facts_)));
+  note_record(dip::write_report(dependencies_.layout.dip(job_), dip::report_of(facts_)));
 }
 
 /// Logs only the first failed write of the record; the dip continues.
@@ -448,9 +449,13 @@ Status end_lost_dips(DeviceJobs& jobs, const Layout& layout) {
     status.clear_step_end_time();
     std::vector<Artifact> record;
     const auto folder = layout.dip(job.id);
-    if (const auto report = read_text_file(folder / dip::kReportName, kLargestRecord)) {
-      const Status written = dip::write_report(folder, dip::interrupted_report(*report, words));
+    if (auto report = read_report(folder, "dip")) {
+      report->mutable_dip()->set_outcome(std::string(name(Ending::kInterrupted)));
+      report->mutable_dip()->set_message(words);
+      const Status written = dip::write_report(folder, report->dip());
       log_failure("record_not_written", job.id, written);
+    }
+    if (std::filesystem::exists(folder / kReport)) {
       if (auto published = publish_artifacts(folder, layout.artifacts(job.id))) record = *published;
     }
     HP_RETURN_IF_ERROR(

@@ -6,6 +6,7 @@
 
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/to_proto.h"
+#include "proto/warning_message.h"
 #include "sim/base/pose_uncertainty.h"
 
 namespace hydroprint::daemon {
@@ -62,9 +63,8 @@ v1::Calibration to_message(const Calibration& calibration, const RigPlace& now) 
   if (calibration.definition.job != 0 && calibration.definition.kind == CalibrationKind::kObject) {
     out.set_picture(out.job() + "/artifacts/alignment.png");
   }
-  for (const Warning& warning : pose_warnings(uncertainty_of(out), out.name())) {
-    out.add_warnings(warning.message);
-  }
+  add_warnings(pose_warnings(uncertainty_of(out), {OfResource{out.name()}}),
+               *out.mutable_warnings());
   if (!calibration.captured) return out;
   const RigPlace& then = calibration.captured->place;
   *out.mutable_capture_time() = time_of(calibration.captured->time_ms);

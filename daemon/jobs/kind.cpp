@@ -48,8 +48,7 @@ std::string JobKind::subject(const Message& shown) const {
   return earlier.empty() ? first_file_name(shown) : earlier;
 }
 
-Result<std::optional<NewCalibration>> JobKind::calibration(const Job&,
-                                                           const std::filesystem::path&) const {
+Result<std::optional<NewCalibration>> JobKind::calibration(const Job&, const v1::JobReport&) const {
   return std::optional<NewCalibration>();
 }
 

@@ -2,7 +2,6 @@
 
 #include <google/protobuf/message.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -13,6 +12,10 @@
 #include "daemon/store/calibration_store.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
+
+namespace hydroprint::v1 {
+class JobReport;
+}
 
 namespace hydroprint::daemon {
 
@@ -65,10 +68,10 @@ class JobKind {
   /// Returns the part of a default display name that follows the kind ("jobs/3", "mug.obj"): the
   /// earlier job that the spec refers to, otherwise its first file.
   [[nodiscard]] virtual std::string subject(const google::protobuf::Message& shown) const;
-  /// Returns the calibration that a successful job produces, read from its (untrusted) artifacts.
+  /// Returns the calibration that a successful job produces, from its (untrusted) report.
   /// @return nullopt if the kind produces none; kInternal, WORKER_UNUSABLE
   [[nodiscard]] virtual Result<std::optional<NewCalibration>> calibration(
-      const Job& job, const std::filesystem::path& artifacts) const;
+      const Job& job, const v1::JobReport& report) const;
 
  protected:
   /// @param spec  the message type of the kind's spec

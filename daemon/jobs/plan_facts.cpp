@@ -2,6 +2,7 @@
 
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/referenced_job.h"
+#include "daemon/jobs/report.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/to_proto.h"
 
@@ -41,12 +42,8 @@ Status add_film(const v1::Job& job, const JobSources& sources, PlanFacts& facts)
   }
   if (job.state() != v1::Job::SUCCEEDED) return {};
   HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(job.name()));
-  Job film;
-  film.id = id;
-  const auto report = report_of(film, sources.layout);
-  if (!report) return {};
-  for (const Warning& warning : report_warnings(*report, kPlanWarnings))
-    facts.warnings[job.name()].push_back(warning.message);
+  const auto report = read_report(sources.layout.artifacts(id), "simulate");
+  if (report) facts.warnings[job.name()] = plan_warnings(report->simulate());
   return {};
 }
 

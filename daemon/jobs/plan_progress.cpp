@@ -91,10 +91,7 @@ class DipSteps {
     say(fmt::format("{} is being computed", job.name()));
   }
 
-  void say(const std::string& what) {
-    out_.set_instruction(
-        fmt::format("dip {} of {}: {}", immersion_, facts_.spec.immersions_size(), what));
-  }
+  void say(const std::string& what) { out_.set_instruction(what); }
 
   std::vector<const v1::Job*> layouts_of(const std::string& film) const {
     return all(facts_, [&](const v1::Job& job) {

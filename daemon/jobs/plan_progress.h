@@ -22,7 +22,7 @@ struct PlanFacts {
   /// Calibrations with which films were computed, by name.
   std::map<std::string, v1::Calibration> calibrations;
   /// Warnings about differences from the plan, by simulate job.
-  std::map<std::string, std::vector<std::string>> warnings;
+  std::map<std::string, std::vector<v1::Warning>> warnings;
   bool has_camera = false;
 };
 

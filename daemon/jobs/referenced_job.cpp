@@ -2,19 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "daemon/jobs/report.h"
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/job.pb.h"
-#include "sim/base/input_file.h"
 
 namespace hydroprint::daemon {
-namespace {
-
-constexpr std::size_t kLargestReport = 4 << 20;
-constexpr std::size_t kMostWarnings = 10;
-
-}  // namespace
 
 Result<Job> earlier_job(const std::string& name, const std::string& kind, const std::string& field,
                         JobStore& jobs) {
@@ -54,26 +46,22 @@ Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& fi
   return body.plan();
 }
 
-Result<std::string> report_of(const Job& job, const Layout& layout) {
-  auto report = read_text_file(layout.artifacts(job.id) / "report.json", kLargestReport);
+Result<v1::JobReport> report_of(const Job& job, const Layout& layout) {
+  auto report = read_report(layout.artifacts(job.id), job.definition.work.verb);
   if (report) return report;
   return fail(Code::kFailedPrecondition,
-              job_name(job.id) + " has no usable report.json; retry that job", "STATE_FORBIDS");
+              fmt::format("{} has no usable report ({}); retry that job", job_name(job.id),
+                          report.error().message),
+              "STATE_FORBIDS");
 }
 
-Warnings report_warnings(const std::string& report, std::string_view prefix) {
-  using Json = nlohmann::json;
-  const Json json = Json::parse(report, nullptr, false);
-  Warnings out;
-  if (!json.is_object() || !json.contains("warnings")) return out;
-  const auto text = [](const Json& warning, const char* key) {
-    const bool is_text = warning.contains(key) && warning[key].is_string();
-    return is_text ? warning[key].get<std::string>() : std::string();
-  };
-  for (const Json& warning : json["warnings"]) {
-    if (!warning.is_object() || out.size() == kMostWarnings) continue;
-    if (!text(warning, "code").starts_with(prefix)) continue;
-    out.push_back({text(warning, "code"), text(warning, "message"), text(warning, "where")});
+std::vector<v1::Warning> plan_warnings(const v1::SimulateReport& report) {
+  std::vector<v1::Warning> out;
+  for (const v1::Warning& warning : report.run().warnings()) {
+    const v1::Warning::Code code = warning.code();
+    if (code == v1::Warning::PLAN_POSE_OFF || code == v1::Warning::PLAN_REACH_LOST ||
+        code == v1::Warning::PLAN_SEAM_MOVED)
+      out.push_back(warning);
   }
   return out;
 }

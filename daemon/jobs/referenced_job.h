@@ -1,10 +1,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
 
 namespace hydroprint::daemon {
@@ -33,14 +34,11 @@ struct EarlierSimulation {
 [[nodiscard]] Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& field,
                                                 JobStore& jobs);
 
-/// Reads report.json of a job.
-/// @return kFailedPrecondition, STATE_FORBIDS if the file is missing, unreadable or too large
-[[nodiscard]] Result<std::string> report_of(const Job& job, const Layout& layout);
+/// Reads the report of a job that SUCCEEDED; see read_report().
+/// @return kFailedPrecondition, STATE_FORBIDS if it is not usable
+[[nodiscard]] Result<v1::JobReport> report_of(const Job& job, const Layout& layout);
 
-/// The codes of warnings about a dip that differs from its plan begin with this.
-inline constexpr std::string_view kPlanWarnings = "plan_";
-
-/// Returns the warnings of an untrusted report.json whose codes begin with a prefix, at most ten.
-[[nodiscard]] Warnings report_warnings(const std::string& report, std::string_view prefix);
+/// Returns the warnings of a simulation about a dip that differs from its plan.
+[[nodiscard]] std::vector<v1::Warning> plan_warnings(const v1::SimulateReport& report);
 
 }  // namespace hydroprint::daemon

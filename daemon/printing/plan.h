@@ -8,8 +8,9 @@
 #include "daemon/store/state_layout.h"
 
 namespace hydroprint::v1 {
+class PrintImageReport;
 class PrintSpec;
-}
+}  // namespace hydroprint::v1
 
 namespace hydroprint::daemon {
 
@@ -23,10 +24,10 @@ struct PrintPlan {
   double margin_mm = 0;                   ///< the printer's margin, as assumed by print-image
 };
 
-/// Reads the number of pages, the paper size and the margin from a print-image job's untrusted
-/// report.json.
+/// Takes the number of pages, the paper size and the margin from a print-image job's untrusted
+/// report.
 /// @return kFailedPrecondition, STATE_FORBIDS
-[[nodiscard]] Status read_printed_pages(const std::string& report, PrintPlan& plan);
+[[nodiscard]] Status read_printed_pages(const v1::PrintImageReport& report, PrintPlan& plan);
 
 /// Creates the plan of a spec.
 /// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if the print-image job did not

@@ -3,35 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "proto/warning_message.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-using OrderedJson = nlohmann::ordered_json;
-
 constexpr double kSamePaper_mm = 0.5;
 constexpr double kSameMargin_mm = 0.05;
 
-OrderedJson news_json(const std::vector<PrinterNews>& news) {
-  OrderedJson out = OrderedJson::array();
-  for (const PrinterNews& item : news) {
-    out.push_back({{"time_s", item.time_s},
-                   {"state", printer::job_state_name(item.report.state)},
-                   {"reasons", item.report.reasons},
-                   {"printer_reasons", item.report.printer_reasons},
-                   {"pages_done", item.report.pages_done}});
-  }
-  return out;
-}
-
-OrderedJson warnings_json(const Warnings& warnings) {
-  OrderedJson out = OrderedJson::array();
-  for (const Warning& warning : warnings) {
-    out.push_back({{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
-  }
-  return out;
+void add_state(const PrinterNews& news, v1::PrintReport& out) {
+  v1::PrintReport::PrinterState& state = *out.add_states();
+  state.set_time_s(news.time_s);
+  state.set_state(printer::job_state_name(news.report.state));
+  for (const std::string& reason : news.report.reasons) state.add_reasons(one_line(reason));
+  for (const std::string& reason : news.report.printer_reasons)
+    state.add_printer_reasons(one_line(reason));
+  state.set_pages_done(news.report.pages_done);
 }
 
 bool has_paper(const printer::Attributes& printer, const Eigen::Vector2d& size_mm) {
@@ -42,48 +31,48 @@ bool has_paper(const printer::Attributes& printer, const Eigen::Vector2d& size_m
 
 }  // namespace
 
-std::string report_json(const PrintFacts& facts) {
+v1::PrintReport report_of(const PrintFacts& facts) {
   const PrintPlan& plan = facts.plan;
-  const OrderedJson out = {
-      {"verb", "print"},
-      {"job", facts.job},
-      {"create_time", facts.create_time},
-      {"print_image_job", plan.print_image_job},
-      {"document",
-       {{"sha256", plan.sha256},
-        {"pages", plan.pages},
-        {"paper_mm", {plan.paper_mm.x(), plan.paper_mm.y()}}}},
-      {"printer",
-       {{"address", facts.address},
-        {"name", facts.printer.name},
-        {"make_and_model", facts.printer.make_and_model},
-        {"job", facts.news.empty() ? OrderedJson() : OrderedJson(facts.news.back().report.id)}}},
-      {"states", news_json(facts.news)},
-      {"outcome", facts.outcome},
-      {"reason", facts.reason},
-      {"message", facts.message},
-      {"warnings", warnings_json(facts.warnings)}};
-  return out.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+  v1::PrintReport out;
+  out.mutable_run()->set_program("hydroprintd");
+  out.mutable_run()->set_version(HYDROPRINT_VERSION);
+  out.mutable_run()->set_verb("print");
+  add_warnings(facts.warnings, *out.mutable_run()->mutable_warnings());
+  out.set_job(facts.job);
+  out.set_create_time(facts.create_time);
+  out.set_outcome(facts.outcome);
+  out.set_reason(facts.reason);
+  out.set_message(one_line(facts.message));
+  out.set_print_image_job(plan.print_image_job);
+  out.set_sha256(plan.sha256);
+  out.set_pages(plan.pages);
+  for (const double side_mm : plan.paper_mm) out.add_paper_mm(side_mm);
+  out.set_printer_address(facts.address);
+  out.set_printer_name(one_line(facts.printer.name));
+  out.set_printer_make_and_model(one_line(facts.printer.make_and_model));
+  if (!facts.news.empty()) out.set_printer_job(facts.news.back().report.id);
+  for (const PrinterNews& news : facts.news) add_state(news, out);
+  return out;
 }
 
 Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) {
   Warnings out;
   if (!printer.papers.empty() && !has_paper(printer, plan.paper_mm)) {
-    out.push_back({"paper_not_listed",
+    out.push_back({WarningCode::PAPER_NOT_LISTED,
                    fmt::format("the printer does not list paper of {:g} x {:g} mm; set up this "
                                "size at the printer, and measure the rulers on the printed page",
                                plan.paper_mm.x(), plan.paper_mm.y()),
-                   "printer"});
+                   {OfItem{"printer"}}});
   }
   const double margin_mm = printer.margins_mm.maxCoeff();
   if (margin_mm > plan.margin_mm + kSameMargin_mm) {
     out.push_back(
-        {"printer_margin",
+        {WarningCode::PRINTER_MARGIN,
          fmt::format("the printer cannot print the outer {:g} mm of the paper, but print-image "
                      "assumed a margin of {:g} mm; the difference is not printed. Run print-image "
                      "with the printer's margin (--printer-margin-mm)",
                      margin_mm, plan.margin_mm),
-         plan.print_image_job});
+         {OfResource{plan.print_image_job}}});
   }
   return out;
 }
@@ -92,10 +81,10 @@ Warnings warnings_of(const std::vector<std::string>& ignored) {
   Warnings out;
   for (const std::string& name : ignored) {
     const bool is_scale = name == "print-scaling";
-    out.push_back({is_scale ? "scale_not_heeded" : "not_heeded",
+    out.push_back({is_scale ? WarningCode::SCALE_NOT_HEEDED : WarningCode::NOT_HEEDED,
                    fmt::format("the printer ignores {}{}; measure the rulers on the printed page",
                                name, is_scale ? ": it may not print at exact scale" : ""),
-                   "printer"});
+                   {OfItem{"printer"}}});
   }
   return out;
 }

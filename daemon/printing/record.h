@@ -5,6 +5,7 @@
 
 #include "daemon/printing/plan.h"
 #include "hardware/printer/printer.h"
+#include "hydroprint/v1/report.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::daemon {
@@ -29,8 +30,8 @@ struct PrintFacts {
   std::string message;
 };
 
-/// Returns the report as a JSON object.
-[[nodiscard]] std::string report_json(const PrintFacts& facts);
+/// Returns the content of report.json.
+[[nodiscard]] v1::PrintReport report_of(const PrintFacts& facts);
 
 /// Returns reasons to expect a poor print on this printer.
 [[nodiscard]] Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer);

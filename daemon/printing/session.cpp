@@ -7,11 +7,13 @@
 #include <cctype>
 #include <thread>
 
+#include "daemon/jobs/report.h"
 #include "daemon/platform/durable_file.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/artifact_files.h"
 #include "daemon/store/to_proto.h"
+#include "proto/write_json.h"
 #include "sim/base/input_file.h"
 
 namespace hydroprint::daemon {
@@ -134,9 +136,10 @@ std::vector<Artifact> PrintSession::publish_record() {
   const auto folder = layout_.run(job_).out();
   const auto written = [&]() -> Result<std::vector<Artifact>> {
     HP_RETURN_IF_ERROR(make_folder(folder));
+    HP_ASSIGN_OR_RETURN(const std::string text, json_file_of(report_of(facts_)));
     HP_ASSIGN_OR_RETURN(const UniqueFd file,
-                        open_file(folder / "report.json", O_WRONLY | O_CREAT | O_TRUNC));
-    HP_RETURN_IF_ERROR(write_at(file, folder / "report.json", report_json(facts_), 0));
+                        open_file(folder / kReport, O_WRONLY | O_CREAT | O_TRUNC));
+    HP_RETURN_IF_ERROR(write_at(file, folder / kReport, text, 0));
     return publish_artifacts(folder, layout_.artifacts(job_));
   };
   auto record = written();

@@ -41,7 +41,8 @@ struct Level {
 // SAX handler that checks each token in order.
 class Checker : public nlohmann::json_sax<json> {
  public:
-  Checker(std::string_view text, const pb::Descriptor& root) : text_(text), root_(root) {}
+  Checker(std::string_view text, const pb::Descriptor& root, std::string_view subject)
+      : text_(text), root_(root), subject_(subject) {}
 
   [[nodiscard]] const Error& error() const { return error_; }
 
@@ -124,7 +125,7 @@ class Checker : public nlohmann::json_sax<json> {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
     return {Code::kInvalidArgument,
-            fmt::format("request body, line {}, column {}: not valid JSON: {}", line, column,
+            fmt::format("{}, line {}, column {}: not valid JSON: {}", subject_, line, column,
                         plain(what)),
             "JSON_INVALID",
             {}};
@@ -146,7 +147,7 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool refuse(const std::string& what) {
     const std::string field = place();
-    error_.message = (field.empty() ? "request body" : field) + ": " + what;
+    error_.message = (field.empty() ? subject_ : field) + ": " + what;
     if (!field.empty()) error_.metadata["field"] = field;
     return false;
   }
@@ -201,14 +202,15 @@ class Checker : public nlohmann::json_sax<json> {
 
   std::string_view text_;
   const pb::Descriptor& root_;
+  std::string subject_;
   std::vector<Level> levels_;
   Error error_{Code::kInvalidArgument, {}, "JSON_INVALID", {}};
 };
 
 }  // namespace
 
-Status check_json(std::string_view text, const pb::Descriptor& message) {
-  Checker checker(text, message);
+Status check_json(std::string_view text, const pb::Descriptor& message, std::string_view what) {
+  Checker checker(text, message, what);
   // The parser would skip a byte order mark, and treat NUL as the end of the text.
   if (text.substr(0, 3) == "\xef\xbb\xbf")
     return tl::unexpected(checker.no_json(0, "byte order mark"));

@@ -79,13 +79,13 @@ Status check_value(const pb::Message& message, const pb::FieldDescriptor& field,
 
 Status check_values(const pb::Message& message) { return check_inside(message, {}); }
 
-Status read_json(std::string_view text, pb::Message& message) {
-  HP_RETURN_IF_ERROR(check_json(text, *message.GetDescriptor()));
+Status read_json(std::string_view text, pb::Message& message, std::string_view what) {
+  HP_RETURN_IF_ERROR(check_json(text, *message.GetDescriptor(), what));
   const pb::StringPiece whole(text.data(), text.size());
   const auto status = pb::util::JsonStringToMessage(whole, &message);
   if (!status.ok()) {
     const std::string words = status.message().ToString();
-    return fail(Code::kInvalidArgument, "request body: " + plain(words), "JSON_INVALID");
+    return fail(Code::kInvalidArgument, fmt::format("{}: {}", what, plain(words)), "JSON_INVALID");
   }
   return check_values(message);
 }

@@ -88,7 +88,8 @@ struct NewJob {
   std::string dip_status;    ///< initial status of a dip: a serialised hydroprint.v1.DipStatus
 };
 
-/// Reason for a failed job; see hydroprint.v1.JobError.
+/// Reason for a failed job; see hydroprint.v1.JobError. The error's metadata `field` is the field
+/// of the job at fault.
 struct JobFailure {
   Error error;
   std::optional<std::int32_t> exit_status;
@@ -100,7 +101,8 @@ struct Progress {
   double fraction = 0;
   std::string phase;
   double phase_fraction = 0;
-  std::int64_t eta_ms = 0;  ///< Unix time; 0: unknown
+  std::int64_t eta_ms = 0;     ///< Unix time; 0: unknown
+  std::string waits_for = {};  ///< what it waits for before it computes; see hydroprint.v1.Job
 };
 
 /// A stored job. Times are Unix times in ms; 0 if not set.

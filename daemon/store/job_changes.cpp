@@ -32,8 +32,8 @@ Result<Job> JobChanges::change(std::int64_t id, const std::function<Status(const
 Status JobChanges::add_event(std::int64_t id, EventKind kind, const std::string& message) {
   return database_.run(
       "INSERT INTO events(job, time_ms, kind, state, fraction, phase, phase_fraction, eta_ms, "
-      "message) SELECT id, ?, ?, state, fraction, phase, phase_fraction, eta_ms, ? FROM jobs "
-      "WHERE id=?",
+      "waits_for, message) SELECT id, ?, ?, state, fraction, phase, phase_fraction, eta_ms, "
+      "waits_for, ? FROM jobs WHERE id=?",
       {clock_(), number(kind), message, id});
 }
 
@@ -57,7 +57,7 @@ Status JobChanges::finish(std::int64_t id, JobState state, const std::string& me
   const std::int64_t now = clock_();
   HP_RETURN_IF_ERROR(
       database_.run("UPDATE jobs SET end_ms=?1, keep_from_ms=?1, phase='', phase_fraction=0, "
-                    "eta_ms=0 WHERE id=?2",
+                    "eta_ms=0, waits_for='' WHERE id=?2",
                     {now, id}));
   HP_RETURN_IF_ERROR(set_purge_time("id=?", id));
   HP_RETURN_IF_ERROR(close_execution(database_, id));
@@ -70,11 +70,14 @@ Status JobChanges::finish_failed(std::int64_t id, const JobFailure& failure) {
   const auto optional = [](const std::optional<std::int32_t>& value) {
     return value ? DbValue(std::int64_t{*value}) : DbValue();
   };
-  HP_RETURN_IF_ERROR(database_.run(
-      "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, exit_status=?, signal=? "
-      "WHERE id=?",
-      {static_cast<std::int64_t>(failure.error.code), failure.error.reason, failure.error.message,
-       optional(failure.exit_status), optional(failure.signal), id}));
+  const auto& metadata = failure.error.metadata;
+  const auto field = metadata.find("field");
+  HP_RETURN_IF_ERROR(
+      database_.run("UPDATE jobs SET error_code=?, error_reason=?, error_message=?, error_field=?, "
+                    "exit_status=?, signal=? WHERE id=?",
+                    {static_cast<std::int64_t>(failure.error.code), failure.error.reason,
+                     failure.error.message, field == metadata.end() ? std::string() : field->second,
+                     optional(failure.exit_status), optional(failure.signal), id}));
   return finish(id, JobState::kFailed, failure.error.message);
 }
 

@@ -12,7 +12,7 @@ constexpr const char* kJobColumns =
     "calibrations.job=jobs.id) THEN 0 ELSE purge_ms END, version, error_code, error_reason, "
     "error_message, exit_status, "
     "signal, (SELECT status FROM dips WHERE job=jobs.id), shared, pinned, computed, "
-    "reads_artifacts, interrupted_advice, attempts FROM jobs ";
+    "reads_artifacts, interrupted_advice, attempts, waits_for, error_field FROM jobs ";
 
 std::optional<JobFailure> read_failure(const DbRow& row) {
   if (row.is_null(24)) return std::nullopt;
@@ -20,6 +20,7 @@ std::optional<JobFailure> read_failure(const DbRow& row) {
   failure.error.code = static_cast<Code>(row.integer(24));
   failure.error.reason = row.text(25);
   failure.error.message = row.text(26);
+  if (!row.text(37).empty()) failure.error.metadata["field"] = row.text(37);
   if (!row.is_null(27)) failure.exit_status = static_cast<std::int32_t>(row.integer(27));
   if (!row.is_null(28)) failure.signal = static_cast<std::int32_t>(row.integer(28));
   return failure;
@@ -54,6 +55,7 @@ Job read_job(const DbRow& row) {
   job.shared = row.integer(30) != 0;
   job.pinned = row.integer(31) != 0;
   job.attempts = row.integer(35);
+  job.progress.waits_for = row.text(36);
   return job;
 }
 
@@ -66,6 +68,7 @@ JobEvent read_event(const DbRow& row) {
   event.state = static_cast<JobState>(row.integer(4));
   event.progress = {row.real(5), row.text(6), row.real(7), row.integer(8)};
   event.message = row.text(9);
+  event.progress.waits_for = row.text(10);
   return event;
 }
 
@@ -96,7 +99,8 @@ Result<std::vector<JobEvent>> select_events(Database& database, const std::strin
                                             std::initializer_list<DbValue> values) {
   std::vector<JobEvent> events;
   HP_RETURN_IF_ERROR(database.each(
-      "SELECT seq, time_ms, job, kind, state, fraction, phase, phase_fraction, eta_ms, message "
+      "SELECT seq, time_ms, job, kind, state, fraction, phase, phase_fraction, eta_ms, message, "
+      "waits_for "
       "FROM events " +
           where,
       values, [&](const DbRow& row) { events.push_back(read_event(row)); }));

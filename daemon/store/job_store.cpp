@@ -230,7 +230,7 @@ Result<Job> JobStore::start(std::int64_t id, const std::string& executor,
     if (cached) return {};
     HP_RETURN_IF_ERROR(database_.run(
         "UPDATE jobs SET start_ms=?, fraction=0, phase='', phase_fraction=0, eta_ms=0, "
-        "attempts=attempts+1 WHERE id=?",
+        "waits_for='', attempts=attempts+1 WHERE id=?",
         {changes_.now_ms(), id}));
     if (!executor.empty()) {
       const std::int64_t attempt = job.attempts + 1;
@@ -245,11 +245,12 @@ Result<Job> JobStore::start(std::int64_t id, const std::string& executor,
 
 Status JobStore::report(std::int64_t id, const Progress& progress) {
   return changes_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(database_.run(
-        "UPDATE jobs SET fraction=?, phase=?, phase_fraction=?, eta_ms=?, update_ms=?, "
-        "version=version+1 WHERE id=? AND state=?",
-        {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms,
-         changes_.now_ms(), id, number(JobState::kRunning)}));
+    HP_RETURN_IF_ERROR(
+        database_.run("UPDATE jobs SET fraction=?, phase=?, phase_fraction=?, eta_ms=?, "
+                      "waits_for=?, update_ms=?, "
+                      "version=version+1 WHERE id=? AND state=?",
+                      {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms,
+                       progress.waits_for, changes_.now_ms(), id, number(JobState::kRunning)}));
     return database_.changes() == 0 ? Status() : changes_.add_event(id, EventKind::kProgress, "");
   });
 }

@@ -26,6 +26,8 @@ void set_error(const JobFailure& failure, v1::JobError& out) {
   out.set_code(rest::number_of(failure.error.code));
   out.set_reason(failure.error.reason);
   out.set_message(failure.error.message);
+  const auto field = failure.error.metadata.find("field");
+  if (field != failure.error.metadata.end()) out.set_field(field->second);
   if (failure.exit_status) out.set_exit_status(*failure.exit_status);
   if (failure.signal) out.set_signal(*failure.signal);
 }
@@ -51,6 +53,7 @@ v1::Job to_message(const Job& job) {
   out.set_state(static_cast<v1::Job::State>(job.state));
   out.set_progress_fraction(job.progress.fraction);
   out.set_phase(job.progress.phase);
+  if (job.state == JobState::kRunning) out.set_waits_for(job.progress.waits_for);
   if (job.id != 0) set_times(job, out);
   out.set_etag(std::to_string(job.version));
   if (job.failure) set_error(*job.failure, *out.mutable_error());
@@ -72,6 +75,7 @@ v1::JobEvent to_message(const JobEvent& event) {
   out.set_state(static_cast<v1::Job::State>(event.state));
   out.set_progress_fraction(event.progress.fraction);
   out.set_phase(event.progress.phase);
+  if (event.state == JobState::kRunning) out.set_waits_for(event.progress.waits_for);
   out.set_phase_fraction(event.progress.phase_fraction);
   if (event.progress.eta_ms > 0) *out.mutable_eta_time() = time_of(event.progress.eta_ms);
   out.set_message(event.message);

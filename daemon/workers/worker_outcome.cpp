@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
-constexpr std::size_t kLongestLine = 4 << 10;  // of progress
+constexpr std::size_t kLongestField = 200;
+constexpr std::string_view kProgram = "hydroprint-worker: ";  // in front of its messages
+constexpr std::size_t kLongestLine = 4 << 10;                 // of progress
 
 // Keeps printable ASCII and well-formed UTF-8; replaces all other bytes with '?'.
 std::string printable(std::string_view text) {
@@ -37,6 +39,12 @@ std::string printable(std::string_view text) {
     i += length;
   }
   return out;
+}
+
+// Returns the last non-empty line.
+std::string_view last_of(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  return text.substr(text.rfind('\n') + 1);
 }
 
 // Truncates a text at a character boundary.
@@ -112,10 +120,17 @@ JobFailure judge_signal(int signal) {
                              signal, ::strsignal(signal)));
 }
 
-// Returns the reason code that a program printed for its failure; empty if there is none.
-std::string printed_reason(std::string_view answer) {
-  const auto object = parse_json(last_line(answer)).value_or(nullptr);
-  return json_string(json_at(object, "error"), "reason").value_or("");
+// Returns the error that a program printed as JSON for its failure: message, reason and field;
+// empty if there is none. The program is untrusted.
+Error printed_error(std::string_view answer) {
+  const auto object = parse_json(last_of(answer)).value_or(nullptr);
+  const auto& error = json_at(object, "error");
+  Error out;
+  out.message = shortened(printable(json_string(error, "message").value_or("")), kLongestMessage);
+  out.reason = json_string(error, "reason").value_or("");
+  if (const auto field = json_string(json_at(error, "metadata"), "field"))
+    out.metadata["field"] = shortened(printable(*field), kLongestField);
+  return out;
 }
 
 // Translates limits of the machine and of the worker, for which the program has its own reason
@@ -134,23 +149,21 @@ bool is_known(const std::string& reason) {
 
 // Returns the failure of a program that ended by itself with a nonzero status.
 JobFailure judge_failed_exit(int status, const std::string& words, std::string_view answer) {
-  const std::string reason = printed_reason(answer);
-  if (auto failure = limit_failure(reason)) return *std::move(failure);
-  JobFailure out = judge_exit(status, words);
+  const Error printed = printed_error(answer);
+  if (auto failure = limit_failure(printed.reason)) return *std::move(failure);
+  JobFailure out = judge_exit(status, printed.message.empty() ? words : printed.message);
+  out.error.metadata = printed.metadata;
   const bool is_general =
       out.error.reason == "INPUT_REFUSED" || out.error.reason == "COMPUTATION_FAILED";
-  if (is_general && is_known(reason)) out.error.reason = reason;
+  if (is_general && is_known(printed.reason)) out.error.reason = printed.reason;
   return out;
 }
 
 }  // namespace
 
 std::string last_line(std::string_view errors) {
-  const std::size_t end = errors.find_last_not_of(" \t\r\n");
-  if (end == std::string_view::npos) return {};
-  errors = errors.substr(0, end + 1);
-  const std::size_t newline = errors.rfind('\n');
-  if (newline != std::string_view::npos) errors.remove_prefix(newline + 1);
+  errors = last_of(errors);
+  if (errors.starts_with(kProgram)) errors.remove_prefix(kProgram.size());
   return shortened(printable(errors), kLongestMessage);
 }
 
@@ -187,7 +200,7 @@ std::vector<std::string> take_progress_lines(std::string& received) {
 
 Progress waiting_progress(std::string_view reason) {
   Progress progress;
-  progress.phase = shortened("waiting: " + printable(reason), kLongestPhase);
+  progress.waits_for = shortened(printable(reason), kLongestPhase);
   return progress;
 }
 

@@ -12,13 +12,15 @@ namespace hydroprint::daemon {
 /// Why the pool stopped a worker, if it did.
 enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 
-/// Returns the last non-empty line of a worker's stderr, made safe for one line of text.
+/// Returns the last non-empty line of a worker's stderr without the program's name, made safe for
+/// one line of text.
 [[nodiscard]] std::string last_line(std::string_view errors);
 
 /// Translates the end of a worker to its job's failure; nullopt if it succeeded.
 /// @param wait_status  from waitpid()
 /// @param errors       its stderr
-/// @param answer       its stdout, which with --json may contain a reason code of ErrorReason
+/// @param answer       its stdout, which with --json ends with the error: message, reason code of
+///                     ErrorReason, and the field at fault, which becomes metadata `field`
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StopReason stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});
@@ -27,8 +29,8 @@ enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 /// Lines that are too long are dropped, because the worker is untrusted.
 [[nodiscard]] std::vector<std::string> take_progress_lines(std::string& received);
 
-/// Returns the progress of a job whose worker waits in the queue of an engine.
-/// @param reason  the engine's, in words
+/// Returns the progress of a job that waits before its worker computes.
+/// @param reason  what for, in words: that of an engine with a queue of its own
 [[nodiscard]] Progress waiting_progress(std::string_view reason);
 
 /// Parses one line of a worker's progress; nullopt if it is malformed. The line is untrusted, since

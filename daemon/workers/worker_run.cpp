@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include "daemon/jobs/registry.h"
+#include "daemon/jobs/report.h"
 #include "daemon/platform/log.h"
 
 namespace hydroprint::daemon {
@@ -32,6 +33,14 @@ JobFailure silence_failure(const Execution& execution, milliseconds silence) {
            {}},
           {},
           {}};
+}
+
+tl::unexpected<Error> unusable_report(const Error& why) {
+  return fail(Code::kInternal,
+              fmt::format("the worker's report cannot be used: {}; check that workers.program is "
+                          "hydroprint-worker",
+                          why.message),
+              "WORKER_UNUSABLE");
 }
 
 }  // namespace
@@ -266,7 +275,9 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
   HP_ASSIGN_OR_RETURN(const auto output, own_output());
   HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(output, artifacts));
   HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(job_));
-  HP_ASSIGN_OR_RETURN(out.calibration, kind->calibration(job_, artifacts));
+  const auto report = read_report(artifacts, kind->name());
+  if (!report) return unusable_report(report.error());
+  HP_ASSIGN_OR_RETURN(out.calibration, kind->calibration(job_, *report));
   return out;
 }
 
@@ -324,8 +335,13 @@ Result<Job> WorkerRun::store_end(JobStore& store) const {
   }
   if (published_) return store.give_up(job_.id, {published_->error(), {}, {}});
   const JobFailure cancelled{{Code::kCancelled, "cancelled", "", {}}, {}, {}};
-  return store.give_up(
-      job_.id, judge(end_.wait_status, stopped_, end_.errors, end_.answer).value_or(cancelled));
+  JobFailure failure =
+      judge(end_.wait_status, stopped_, end_.errors, end_.answer).value_or(cancelled);
+  const auto field = failure.error.metadata.find("field");  // of the spec
+  const auto kind = kind_of(job_);
+  if (kind && field != failure.error.metadata.end())
+    field->second.insert(0, (*kind)->field().name() + ".");
+  return store.give_up(job_.id, failure);
 }
 
 void WorkerRun::log_end(const Result<Job>& job) const {

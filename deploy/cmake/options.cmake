@@ -11,7 +11,7 @@ option(HYDROPRINT_GROUP_FILES "Compile several files at once in targets declared
 set(HYDROPRINT_SANITIZE "" CACHE STRING "Sanitizers for the project's own code: address;undefined, or thread")
 
 add_library(hydroprint_options INTERFACE)
-target_include_directories(hydroprint_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(hydroprint_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
 target_compile_options(hydroprint_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # Gives identical results on every machine.

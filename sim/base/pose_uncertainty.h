@@ -37,10 +37,10 @@ void set_uncertainty(const PoseUncertainty& uncertainty, Message& message) {
 /// Largest stated error of a pose for which no warning is given.
 inline constexpr double kMostPoseError_mm = 1;
 
-/// Returns the reasons to expect a misplaced print, with the remedy: `pose_unconstrained` for each
-/// motion from the nominal pose; otherwise `pose_uncertain` if the stated error exceeds
+/// Returns the reasons to expect a misplaced print, with the remedy: `POSE_UNCONSTRAINED` for each
+/// motion from the nominal pose; otherwise `POSE_UNCERTAIN` if the stated error exceeds
 /// kMostPoseError_mm.
 /// @param where  the source of the pose
-[[nodiscard]] Warnings pose_warnings(const PoseUncertainty& uncertainty, const std::string& where);
+[[nodiscard]] Warnings pose_warnings(const PoseUncertainty& uncertainty, const Place& where);
 
 }  // namespace hydroprint

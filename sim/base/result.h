@@ -5,7 +5,10 @@
 #include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include "sim/base/warning_code.h"
 
 namespace hydroprint {
 
@@ -54,12 +57,52 @@ using Status = Result<void>;
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason), {}});
 }
 
-/// An assumption that was made, or something for the user to check. Copied unchanged to
-/// report.json.
+/// Places that a warning can be about; see hydroprint/v1/warning.proto.
+struct FilmPoint {
+  double x_mm = 0, y_mm = 0;  ///< film frame, at first contact
+  double immersion_mm = 0;    ///< at which the waterline is there
+};
+struct OnSurface {};  ///< the object's surface
+struct AtImmersion {
+  double immersion_mm = 0;
+};
+struct InFile {
+  std::string name;
+  int line = 0;  ///< from 1; 0: the whole file
+};
+struct InLayer {
+  std::string name;  ///< layer of the paint
+};
+struct OnSheet {
+  int number = 0;  ///< printed sheet, from 1
+};
+struct AtMarker {
+  std::string name;
+};
+struct OfResource {
+  std::string name;  ///< "jobs/7"
+};
+struct OfItem {
+  std::string name;  ///< anything else: a material, "printer"
+};
+
+struct Place {
+  std::variant<std::monostate, FilmPoint, OnSurface, AtImmersion, InFile, InLayer, OnSheet,
+               AtMarker, OfResource, OfItem>
+      place = {};
+  int dip = 0;  ///< dip of a plan, from 1; 0: not about one dip
+};
+
+/// Describes a place for people: "dip 2, 12.30 mm immersion, at (-4.00, 17.50) mm"; empty if there
+/// is none.
+[[nodiscard]] std::string words_of(const Place& place);
+
+/// An assumption that was made, or something for the user to check; see
+/// hydroprint/v1/warning.proto.
 struct Warning {
-  std::string code;     ///< stable lower_snake word
+  WarningCode code = WarningCode::CODE_UNSPECIFIED;
   std::string message;  ///< one sentence: what was found and what was assumed
-  std::string where;    ///< file, face, depth or place on the object
+  Place where = {};
 };
 using Warnings = std::vector<Warning>;
 

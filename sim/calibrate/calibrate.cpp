@@ -68,15 +68,15 @@ tl::unexpected<Error> without_gripper(const Task& task, Error error) {
 Warnings all_warnings(const Task& task, const Calibration& found) {
   Warnings out = found.film_frame.warnings;
   out.insert(out.end(), found.object.warnings.begin(), found.object.warnings.end());
-  const Warnings pose = pose_warnings(found.uncertainty, "object");
+  const Warnings pose = pose_warnings(found.uncertainty, {OfItem{"object"}});
   out.insert(out.end(), pose.begin(), pose.end());
   const Warnings camera = camera_warnings(task.camera);
   out.insert(out.end(), camera.begin(), camera.end());
   if (!found.water)
-    out.push_back({"water_not_seen",
+    out.push_back({WarningCode::WATER_NOT_SEEN,
                    "too little water is in view to measure its level. "
                    "The layout's z = 0 is used instead",
-                   "water"});
+                   {OfItem{"water"}}});
   return out;
 }
 
@@ -125,10 +125,10 @@ registration::CameraCalibration uncalibrated(const scan::Lens& nominal) {
 
 Warnings camera_warnings(const registration::CameraCalibration& camera) {
   if (camera.views > 0) return {};
-  return {{"camera_not_calibrated",
+  return {{WarningCode::CAMERA_NOT_CALIBRATED,
            "lens and depth scale come from the driver, so depths may be off by 1 to 2 %: "
            "use calibrate-camera",
-           "camera"}};
+           {OfItem{"camera"}}}};
 }
 
 }  // namespace hydroprint::calibrate

@@ -54,7 +54,7 @@ struct Calibration {
 /// Jancosek and Pajdla 2011).
 [[nodiscard]] registration::CameraCalibration uncalibrated(const scan::Lens& nominal);
 
-/// Returns the warning `camera_not_calibrated` if the camera was not calibrated.
+/// Returns the warning `CAMERA_NOT_CALIBRATED` if the camera was not calibrated.
 [[nodiscard]] Warnings camera_warnings(const registration::CameraCalibration& camera);
 
 }  // namespace hydroprint::calibrate

@@ -26,7 +26,9 @@ bool is_lens(const Lens& lens) {
          lens.depth_scale < 10;
 }
 
-Json summary(const registration::CameraCalibration& camera) {
+}  // namespace
+
+std::string camera_json(const registration::CameraCalibration& camera) {
   Json out = {{"width_px", camera.lens.width_px}, {"height_px", camera.lens.height_px}};
   const Lens::Vector parameters = camera.lens.parameters();
   for (Eigen::Index i = 0; i < Lens::kParameters; ++i)
@@ -36,17 +38,6 @@ Json summary(const registration::CameraCalibration& camera) {
     out["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
   out.update(
       {{"views", camera.views}, {"rms_mm", camera.rms_mm}, {"rms_sigmas", camera.rms_sigmas}});
-  return out;
-}
-
-}  // namespace
-
-std::string camera_summary_json(const registration::CameraCalibration& camera) {
-  return summary(camera).dump(1) + "\n";
-}
-
-std::string camera_json(const registration::CameraCalibration& camera) {
-  Json out = summary(camera);
   if (camera.pattern.is_known()) out["pattern"] = pattern_json(camera.pattern);
   return out.dump(1) + "\n";
 }

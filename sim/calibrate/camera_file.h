@@ -13,9 +13,6 @@ namespace hydroprint::calibrate {
 /// (pattern_json.h). read_camera() restores exactly the same values.
 [[nodiscard]] std::string camera_json(const registration::CameraCalibration& camera);
 
-/// Same as camera_json(), without the fixed pattern, for display.
-[[nodiscard]] std::string camera_summary_json(const registration::CameraCalibration& camera);
-
 /// Reads a camera calibration; the fixed pattern may be missing. Returns the errors of
 /// read_json_file(), and kInvalidArgument if a value is missing or out of range, or if the pattern
 /// does not match the image size.

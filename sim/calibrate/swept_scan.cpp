@@ -56,10 +56,10 @@ Result<registration::FilmFrame> film_frame_of(const scan::Sweep& sweep, const Sw
 Warnings lost_frames(const scan::Path& path) {
   if (path.lost() == 0) return {};
   return {
-      {"frames_lost",
+      {WarningCode::FRAMES_LOST,
        fmt::format("{} of {} frames could not be registered and are left out: sweep more slowly",
                    path.lost(), path.X_WC.size()),
-       "frames"}};
+       {OfItem{"frames"}}}};
 }
 
 void append(Warnings& to, const Warnings& more) { to.insert(to.end(), more.begin(), more.end()); }

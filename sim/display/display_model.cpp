@@ -49,11 +49,11 @@ Status add_pictures(const mesh::Model& model, const image::Paint& paint, const C
   out.pictures = std::move(shown.pictures);
   if (shown.halvings == 0) return {};
   out.warnings.push_back(
-      {"textures_reduced",
+      {WarningCode::TEXTURES_REDUCED,
        fmt::format("the {} textures together are too large to show, so they are shown at 1/{} of "
                    "their resolution; what is printed has all of it",
                    paint.textures().size(), 1 << shown.halvings),
-       model.path.string()});
+       {InFile{model.path.string()}}});
   return {};
 }
 
@@ -94,11 +94,11 @@ Result<DisplayModel> make_display(const mesh::Model& model, const image::Paint& 
   add_triangles(shown.mesh, parts_of(model, paint), out);
   if (shown.is_in_part) {
     out.warnings.push_back(
-        {"shown_in_part",
+        {WarningCode::SHOWN_IN_PART,
          fmt::format("the model consists of very small pieces; the {} largest of its {} triangles "
                      "are shown, and all are printed",
                      out.triangles(), model.triangles.size()),
-         model.path.string()});
+         {InFile{model.path.string()}}});
   }
   HP_RETURN_IF_ERROR(add_pictures(model, paint, context, out));
   return out;

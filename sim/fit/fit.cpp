@@ -251,10 +251,10 @@ class Fitting {
     out_.t_quantile = student_t(0.5 + 0.5 * kConfidence, out_.degrees_of_freedom);
     out_.warnings.insert(out_.warnings.end(), motion_warnings_.begin(), motion_warnings_.end());
     if (free_.empty()) {
-      out_.warnings.push_back({"nothing_determined",
+      out_.warnings.push_back({WarningCode::NOTHING_DETERMINED,
                                "the points determine none of the parameters; the profile "
                                "stays unchanged",
-                               options_.points_name});
+                               {InFile{options_.points_name}}});
       return;
     }
     const Linearised known = at_.of_known();
@@ -268,18 +268,18 @@ class Fitting {
     const auto outliers = std::count_if(out_.points.begin(), out_.points.end(),
                                         [](const auto& p) { return p.is_used() && p.is_outlier; });
     if (outliers > 0) {
-      out_.warnings.push_back({"outliers",
+      out_.warnings.push_back({WarningCode::OUTLIERS,
                                fmt::format("{} points have residuals above 4 robust "
                                            "standard deviations but are still used; "
                                            "see residuals.csv, or use --drop-outliers",
                                            outliers),
-                               options_.points_name});
+                               {InFile{options_.points_name}}});
     }
     if (!out_.settled) {
-      out_.warnings.push_back({"fit_not_settled",
+      out_.warnings.push_back({WarningCode::FIT_NOT_SETTLED,
                                "the fit stopped before it converged; start from another "
                                "profile",
-                               options_.points_name});
+                               {InFile{options_.points_name}}});
     }
   }
 

@@ -22,8 +22,8 @@
 namespace hydroprint::mesh {
 namespace {
 
-void warn(Surface& surface, const Model& model, std::string code, std::string message) {
-  surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
+void warn(Surface& surface, const Model& model, WarningCode code, std::string message) {
+  surface.warnings.push_back({code, std::move(message), {InFile{model.path.string()}}});
 }
 
 /// Returns the triangles that still have an area after coincident points are welded.
@@ -54,12 +54,12 @@ void drop_coincident(const Model& model, const std::vector<int>& weld, std::vect
   const DistinctFaces found = merge_coincident(triangles, weld);
   if (found.kept.size() == kept.size()) return;
   if (found.copies > 0)
-    warn(surface, model, "coincident_faces",
+    warn(surface, model, WarningCode::COINCIDENT_FACES,
          fmt::format("{} faces lie exactly on others, as in models exported twice or "
                      "double-sided; only the first of them is used",
                      found.copies));
   if (found.walls > 0)
-    warn(surface, model, "parts_touch",
+    warn(surface, model, WarningCode::PARTS_TOUCH,
          fmt::format("{} faces divide parts that touch; the parts were united", found.walls));
   std::vector<int> left;
   left.reserve(found.kept.size());
@@ -99,7 +99,7 @@ void warn_about_size(const Model& model, Surface& surface) {
   const double largest_mm = box.sizes().maxCoeff();
   if (!is_odd_size(largest_mm)) return;
   const auto unit = likely_unit(largest_mm / model.scale, model.path.extension().string());
-  warn(surface, model, "small_or_large_object",
+  warn(surface, model, WarningCode::SMALL_OR_LARGE_OBJECT,
        fmt::format("the largest side is {} mm: {}", three_digits(largest_mm),
                    unit ? fmt::format("if the file is in {}, give --scale {}, and it is {} mm",
                                       unit->name, shortest_text(unit->mm),
@@ -109,16 +109,16 @@ void warn_about_size(const Model& model, Surface& surface) {
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
   if (found.inconsistent > 0 || found.one_sided > 0)
-    warn(surface, model, "inconsistent_orientation",
+    warn(surface, model, WarningCode::INCONSISTENT_ORIENTATION,
          fmt::format("{} faces were turned over to agree with their neighbours; at {} edges, the "
                      "faces cannot be made to agree",
                      found.inconsistent, found.one_sided));
   if (found.inside_out > 0)
-    warn(surface, model, "inside_out",
+    warn(surface, model, WarningCode::INSIDE_OUT,
          fmt::format("{} of {} shells faced inward and were turned over", found.inside_out,
                      found.shells));
   if (found.shells > 1)
-    warn(surface, model, "many_shells",
+    warn(surface, model, WarningCode::MANY_SHELLS,
          fmt::format("the mesh has {} separate shells ({} of them cavities inside another shell); "
                      "their union is used",
                      found.shells, found.cavities));
@@ -135,7 +135,7 @@ void warn_about_sides(const Model& model, const Orientation& found, Surface& sur
     message += (message.empty() ? "" : "; ") + open_shells(found.undecided) +
                " is a guess, because rays did not decide. Close the holes in a 3D editor, or give "
                "sheets a thickness";
-  if (!message.empty()) warn(surface, model, "sides_by_rays", std::move(message));
+  if (!message.empty()) warn(surface, model, WarningCode::SIDES_BY_RAYS, std::move(message));
 }
 
 /// Names the place and the size of the largest holes.
@@ -157,7 +157,7 @@ void warn_about_holes(const Model& model, const Edges& edges, const Patchwork& w
   if (holes.empty()) return;
   std::size_t open = 0;
   for (const Hole& hole : holes) open += hole.edges;
-  warn(surface, model, "mesh_open",
+  warn(surface, model, WarningCode::MESH_OPEN,
        fmt::format("the mesh has {} boundary edges in {} hole{} ({}); they are closed by straight "
                    "lines at each waterline. Close large holes in a 3D editor",
                    open, holes.size(), holes.size() == 1 ? "" : "s", largest_holes(holes)));
@@ -181,7 +181,7 @@ bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, 
   }
   if (open > 0) warn_about_holes(model, edges, work, surface);
   if (crowded > 0)
-    warn(surface, model, "mesh_non_manifold",
+    warn(surface, model, WarningCode::MESH_NON_MANIFOLD,
          fmt::format("{} edges have more than two faces: the outermost surface is used", crowded));
   return open + crowded + opposed == 0;
 }
@@ -208,7 +208,7 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     return fail(Code::kInvalidArgument,
                 name + ": all faces have zero area; export the model again");
   if (kept.size() < model.triangles.size())
-    warn(surface, model, "zero_area_faces",
+    warn(surface, model, WarningCode::ZERO_AREA_FACES,
          fmt::format("{} faces whose corners coincide or lie on a line were dropped",
                      model.triangles.size() - kept.size()));
   drop_coincident(model, weld, kept, surface);

@@ -96,15 +96,15 @@ Warnings uv_warnings(const Model& model) {
   const double overlapping = overlapping_share(model);
   const double mirrored = mirrored_share(model);
   if (overlapping > kReportedShare)
-    warnings.push_back({"uv_overlapping",
+    warnings.push_back({WarningCode::UV_OVERLAPPING,
                         percent(overlapping) + " of the used texture area is shared by several "
                                                "faces, which all get the same picture",
-                        model.path.string()});
+                        {InFile{model.path.string()}}});
   if (mirrored > kReportedShare)
-    warnings.push_back({"uv_mirrored",
+    warnings.push_back({WarningCode::UV_MIRRORED,
                         percent(mirrored) + " of the used texture area is mirrored on the "
                                             "object and is printed that way",
-                        model.path.string()});
+                        {InFile{model.path.string()}}});
   return warnings;
 }
 

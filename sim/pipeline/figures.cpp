@@ -149,15 +149,12 @@ void measure_error(const flow::SurfaceMap& map, const std::vector<char>& counted
                options.tolerance_mm ? share_above(*options.tolerance_mm) : 0};
 }
 
-std::string at_immersion(double immersion_mm) {
-  return fmt::format("{:.2f} mm immersion", immersion_mm);
-}
+Place at_immersion(double immersion_mm) { return {AtImmersion{immersion_mm}}; }
 
-/// Returns the immersion and position of a trap or a level face as text, which the web pages parse.
-template <class Place>
-std::string where_of(const Place& place) {
-  return fmt::format("{}, at ({:.2f}, {:.2f}) mm", at_immersion(place.immersion_mm),
-                     place.place_mm.x(), place.place_mm.y());
+/// Returns the place of a trap or a level face.
+template <class Found>
+Place where_of(const Found& found) {
+  return {FilmPoint{found.place_mm.x(), found.place_mm.y(), found.immersion_mm}};
 }
 
 std::string and_others(std::ptrdiff_t others) {
@@ -168,7 +165,7 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   if (traps.empty()) return;
   const waterline::Trap& largest = traps.front();
   warnings.push_back(
-      {"film_trapped",
+      {WarningCode::FILM_TRAPPED,
        fmt::format("the waterline closes around a piece of film of up to {} mm2{}, which "
                    "can then only stretch. Turn the object so that it enters the water edge first",
                    three_digits(largest.area_mm2),
@@ -181,7 +178,7 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   const auto count = std::count_if(traps.begin(), traps.end(), airy);
   if (count == 0) return;
   warnings.push_back(
-      {"air_trapped",
+      {WarningCode::AIR_TRAPPED,
        fmt::format("the object traps {} cm3 of air{}, which keeps the water out of the cavity; the "
                    "surface inside stays bare. Turn the object or drill a vent",
                    three_digits(most->air_mm3 / 1000), and_others(count - 1)),
@@ -210,7 +207,7 @@ void warn_of_limit(const waterline::Coarseness& coarse, std::size_t most, Warnin
                     coarse.unresolved.size(), three_digits(coarse.unresolved.front().width_mm()));
   }
   warnings.push_back(
-      {"waterlines_limited",
+      {WarningCode::WATERLINES_LIMITED,
        fmt::format(
            "the object has more details than {} waterlines resolve:{} the map is less exact "
            "there. Leave out small parts, or turn the object",
@@ -220,7 +217,7 @@ void warn_of_limit(const waterline::Coarseness& coarse, std::size_t most, Warnin
 
 void warn_of_sections(const waterline::SectionsOff& off, Warnings& warnings) {
   warnings.push_back(
-      {"sections_uncertain",
+      {WarningCode::SECTIONS_UNCERTAIN,
        fmt::format("the mesh is open or its parts share edges, and its sections enclose {} cm3 "
                    "where vertical lines through it find {} cm3: check the result near its "
                    "openings, or close them in a 3D editor",
@@ -231,7 +228,7 @@ void warn_of_sections(const waterline::SectionsOff& off, Warnings& warnings) {
 void warn_of_level_faces(const std::vector<waterline::LevelFace>& faces, Warnings& warnings) {
   if (faces.empty()) return;
   warnings.push_back(
-      {"air_trapped",
+      {WarningCode::AIR_TRAPPED,
        fmt::format("a level face of {} mm2{} meets the water all at once and catches air. Tilt the "
                    "object by 10 to 20 degrees so that it enters the water edge first",
                    three_digits(faces.front().area_mm2),
@@ -243,7 +240,7 @@ void warn_of_level_faces(const std::vector<waterline::LevelFace>& faces, Warning
 void warn_of_error(const DipFigures& figures, const DipOptions& options, Warnings& warnings) {
   if (!figures.error || figures.error->beyond_share <= 0) return;
   warnings.push_back(
-      {"tolerance_exceeded",
+      {WarningCode::TOLERANCE_EXCEEDED,
        fmt::format(
            "the stated error of {} of the points exceeds {} mm after {} refinements, most at "
            "this immersion. Turn the object, dip less deep, or accept a larger tolerance",
@@ -254,17 +251,17 @@ void warn_of_error(const DipFigures& figures, const DipOptions& options, Warning
 
 /// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
 void warn_of_tears(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
-  const auto warn = [&](double share, const char* code, const std::string& message) {
+  const auto warn = [&](double share, WarningCode code, const std::string& message) {
     if (share > 0) {
       warnings.push_back(
-          {code, fmt::format("on {} of the surface {}", percent(share), message), "surface"});
+          {code, fmt::format("on {} of the surface {}", percent(share), message), {OnSurface{}}});
     }
   };
-  warn(figures.torn_share, "film_torn",
+  warn(figures.torn_share, WarningCode::FILM_TORN,
        fmt::format("the film tears, because it is stretched more than {} times. Dip less deep, "
                    "turn the object, or use a larger film",
                    profile.tear_stretch));
-  warn(figures.wrinkled_share, "film_wrinkled",
+  warn(figures.wrinkled_share, WarningCode::FILM_WRINKLED,
        fmt::format("the film wrinkles, because it is compressed below {} of its width. Turn the "
                    "object or dip less deep",
                    profile.wrinkle_stretch));
@@ -336,7 +333,7 @@ std::vector<std::uint8_t> face_flags(const StokesPass& pass, const flow::Surface
 Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& options) {
   Warnings warnings;
   if (figures.stopped_at_edge) {
-    warnings.push_back({"film_edge_reached",
+    warnings.push_back({WarningCode::FILM_EDGE_REACHED,
                         fmt::format("the waterline reaches the edge of the film {}; the dip ends "
                                     "there, and the part of the object above that waterline is "
                                     "not printed",
@@ -353,19 +350,19 @@ Warnings warnings_of_waterline(const DipFigures& figures, const DipOptions& opti
 Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options) {
   Warnings warnings;
   if (figures.clamped_share > 0) {
-    warnings.push_back({"theta_clamped",
+    warnings.push_back({WarningCode::THETA_CLAMPED,
                         fmt::format("{} of the surface faces up, within 10 degrees of level, where "
                                     "theta is clamped at 170 degrees: do not trust the map there",
                                     percent(figures.clamped_share)),
-                        "surface"});
+                        {OnSurface{}}});
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
     warnings.push_back(
-        {"stretch_beyond_stokes",
+        {WarningCode::STRETCH_BEYOND_STOKES,
          fmt::format("the film is stretched up to {} times; above {} times, "
                      "Stokes flow alone is not accurate (paper, section 4.4). Use --model sheet",
                      three_digits(figures.stretch_max), kStokesStretch),
-         "surface"});
+         {OnSurface{}}});
   }
   warn_of_tears(figures, options.profile, warnings);
   warn_of_error(figures, options, warnings);
@@ -379,18 +376,18 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   };
   if (figures.coverage < 0.995) {
     warnings.push_back(
-        {"parts_not_reached",
+        {WarningCode::PARTS_NOT_REACHED,
          fmt::format(
              "film reaches {} of the surface; the rest stays bare. Turn the object or dip it again",
              percent(figures.coverage)),
-         "surface"});
+         {OnSurface{}}});
   }
   if (figures.tiles_limited) {
-    warnings.push_back({"tiles_limited",
+    warnings.push_back({WarningCode::TILES_LIMITED,
                         "the film folds or tears in more places than the tiles of the map resolve, "
                         "so it is less exact there. Turn the object, dip less deep, or leave out "
                         "small parts",
-                        "surface"});
+                        {OnSurface{}}});
   }
   add(warnings_of_strain(figures, options));
   add(warnings_of_profile(options));
@@ -400,8 +397,9 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
 
 Warnings warnings_of_profile(const DipOptions& options) {
   if (options.film_model != FilmModel::kStokes || options.profile.drag_length_mm <= 0) return {};
-  return {{"drag_ignored", "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
-           "profile"}};
+  return {{WarningCode::DRAG_IGNORED,
+           "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
+           {OfItem{"film profile"}}}};
 }
 
 Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,
@@ -410,7 +408,7 @@ Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm
   if (!passed_over_mm.empty()) {
     const std::size_t all = passed_over_mm.size() + static_cast<std::size_t>(steps);
     warnings.push_back(
-        {"waterlines_passed_over",
+        {WarningCode::WATERLINES_PASSED_OVER,
          fmt::format("{} of {} waterlines are passed over, because two of their curves nearly "
                      "touch; there the film's motion comes from the neighbouring waterlines. Widen "
                      "or close such gaps in the model",
@@ -419,14 +417,14 @@ Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm
   }
   if (unsettled_mm > kUnsettled_mm) {
     warnings.push_back(
-        {"sheet_unsettled",
+        {WarningCode::SHEET_UNSETTLED,
          fmt::format(
              "the thickness of the film does not converge, which happens where the film "
              "tears or folds; another sweep would still move the film by {} mm. "
              "Do not trust the result where the stretch is extreme; turn the object or dip less "
              "deep",
              three_digits(unsettled_mm)),
-         "film"});
+         {OfItem{"film"}}});
   }
   return warnings;
 }

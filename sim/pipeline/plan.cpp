@@ -48,8 +48,7 @@ Error located(Error error, std::size_t k) {
 
 void add_of_dip(std::size_t k, Warnings more, Warnings& warnings) {
   for (Warning& warning : more) {
-    const bool has_place = warning.where != "surface" && warning.where != "film";
-    warning.where = name_of(k) + (has_place ? ", " + warning.where : "");
+    warning.where.dip = static_cast<int>(k) + 1;
     warnings.push_back(std::move(warning));
   }
 }
@@ -95,12 +94,12 @@ void warn_of_repeats(const Plan& plan, Warnings& warnings) {
   for (std::size_t k = 1; k < X_FO.size(); ++k) {
     const auto earlier = repeated_by(X_FO, k);
     if (!earlier) continue;
-    warnings.push_back({"dip_repeated",
+    warnings.push_back({WarningCode::DIP_REPEATED,
                         fmt::format("{} lowers the object in the same orientation as {}, so it "
                                     "prints only what that one does not reach. Leave one of them "
                                     "out, or turn the object",
                                     name_of(k), name_of(*earlier)),
-                        name_of(k)});
+                        {{}, static_cast<int>(k) + 1}});
   }
 }
 
@@ -109,19 +108,19 @@ void warn_of_division(const Plan& plan, Warnings& warnings) {
   for (std::size_t k = 0; k < plan.dips.size(); ++k) {
     if (plan.regions.sizes[k].pieces > 0) continue;
     warnings.push_back(
-        {"dip_without_region",
+        {WarningCode::DIP_WITHOUT_REGION,
          fmt::format("{} prints nothing, because the other dips stretch the film less everywhere. "
                      "Leave it out, or turn the object",
                      name_of(k)),
-         name_of(k)});
+         {{}, static_cast<int>(k) + 1}});
   }
   const double unreached = plan.regions.unreached_share;
   if (unreached <= kMostUnreached) return;
-  warnings.push_back({"parts_not_reached",
+  warnings.push_back({WarningCode::PARTS_NOT_REACHED,
                       fmt::format("no dip reaches {} of the surface, which stays bare. Turn the "
                                   "object in one of the dips, or add a dip",
                                   percent(unreached)),
-                      "surface"});
+                      {OnSurface{}}});
 }
 
 Warnings warnings_of_plan(const Plan& plan, const image::SurfacePaint& paint,

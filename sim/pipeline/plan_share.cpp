@@ -92,19 +92,19 @@ Result<PlanDeviation> deviation_from(const PlanShare& share, const Division& div
 Warnings warnings_of_deviation(const PlanDeviation& deviation, const PlanShare& share) {
   Warnings out;
   const std::string dip = fmt::format("dip {}", share.dip);
-  const auto warn = [&](const char* code, std::string what) {
-    out.push_back({code, std::move(what) + ". " + kRemedy, dip});
+  const auto warn = [&](WarningCode code, std::string what) {
+    out.push_back({code, std::move(what) + ". " + kRemedy, {{}, share.dip}});
   };
   if (deviation.turn_rad > kMostTurn_rad ||
       deviation.shift_mm.cwiseAbs().maxCoeff() > kMostShift_mm) {
-    warn("plan_pose_off",
+    warn(WarningCode::PLAN_POSE_OFF,
          fmt::format("the object is turned by {:.1f} degrees and displaced by ({:.1f}, {:.1f}) mm "
                      "from the planned pose of {}",
                      deviation.turn_rad * 180 / std::numbers::pi, deviation.shift_mm.x(),
                      deviation.shift_mm.y(), dip));
   }
   if (deviation.lost_share > kMostLost) {
-    warn("plan_reach_lost",
+    warn(WarningCode::PLAN_REACH_LOST,
          fmt::format("at this pose, the film does not reach {} of the part that {} prints, which "
                      "stays bare",
                      percent(deviation.lost_share), dip));
@@ -114,7 +114,7 @@ Warnings warnings_of_deviation(const PlanDeviation& deviation, const PlanShare& 
                                 ? fmt::format("{} mm", three_digits(deviation.seam_shift_mm))
                                 : "far";
     warn(
-        "plan_seam_moved",
+        WarningCode::PLAN_SEAM_MOVED,
         fmt::format("at this pose, the film is stretched least up to a seam that is up to {} from "
                     "the planned one (blend width: {} mm), so near the planned one it is stretched "
                     "more than needed",

@@ -109,10 +109,12 @@ Result<image::LayeredPaint> read_paint(const mesh::Model& model, const image::Pa
 
 Status check_materials(const mesh::Model& model) {
   for (const Warning& warning : model.warnings) {
-    if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
+    if (warning.code != WarningCode::MATERIAL_FILE_MISSING &&
+        warning.code != WarningCode::MATERIAL_MISSING)
+      continue;
     return fail(
         Code::kNotFound,
-        warning.where + ": " + warning.message +
+        words_of(warning.where) + ": " + warning.message +
             ". Put the complete material file into the model's folder, or specify a picture");
   }
   return {};

@@ -130,7 +130,8 @@ void measure_region(const mesh::Model& model, const Planned& planned,
   };
   add(dip.surface.warnings);
   add(warnings_of(dip.figures, options.dip));
-  std::erase_if(dip.warnings, [](const Warning& w) { return w.code == "parts_not_reached"; });
+  std::erase_if(dip.warnings,
+                [](const Warning& w) { return w.code == WarningCode::PARTS_NOT_REACHED; });
 }
 
 Status draw_film(const Dip& dip, const Print& print, const SimulateOptions& options,

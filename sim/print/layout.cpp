@@ -221,12 +221,12 @@ class LayOut {
 };
 
 void warn_of_marks(const Sheet& sheet, std::size_t number, Warnings& warnings) {
-  const std::string where = fmt::format("sheet {}", number);
+  const Place where = {OnSheet{static_cast<int>(number)}};
   if (sheet.is_text_shortened) warn_of_shortened_text(where, warnings);
   if (sheet.dropped.empty()) return;
 
   warnings.push_back(
-      {"marks_dropped",
+      {WarningCode::MARKS_DROPPED,
        fmt::format(
            "there is not enough room beside the film, so these are left out: {}. Use larger paper",
            fmt::join(sheet.dropped, ", ")),
@@ -263,7 +263,8 @@ Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline
     }
   }
   if (font != nullptr) {
-    warn_of_missing_glyphs(*font, texts_of(out.sheets), "text beside the film", out.warnings);
+    warn_of_missing_glyphs(*font, texts_of(out.sheets), {OfItem{"text beside the film"}},
+                           out.warnings);
   }
   return out;
 }

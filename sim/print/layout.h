@@ -41,7 +41,7 @@ struct Layout {
   int columns = 1, rows = 1;
   double pitch_mm = 1;
   std::vector<Sheet> sheets;  ///< row by row, from the top
-  Warnings warnings;          ///< marks_dropped, text_glyph_missing, text_shortened
+  Warnings warnings;          ///< MARKS_DROPPED, TEXT_GLYPH_MISSING, TEXT_SHORTENED
 };
 
 /// Lays out a film image on paper at exact scale. The image is in the middle of one sheet, rotated

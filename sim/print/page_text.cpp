@@ -76,7 +76,7 @@ Box text_box(const text::Font& font, const Text& text) {
 }
 
 void warn_of_missing_glyphs(const text::Font& font, const std::vector<Text>& texts,
-                            const std::string& where, Warnings& warnings) {
+                            const Place& where, Warnings& warnings) {
   std::vector<char32_t> missing;
   for (const Text& text : texts) {
     for (const char32_t c : font.lay_out(text.text).missing) {
@@ -86,8 +86,8 @@ void warn_of_missing_glyphs(const text::Font& font, const std::vector<Text>& tex
   if (!missing.empty()) warnings.push_back(text::missing_glyphs_warning(missing, where));
 }
 
-void warn_of_shortened_text(const std::string& where, Warnings& warnings) {
-  warnings.push_back({"text_shortened",
+void warn_of_shortened_text(const Place& where, Warnings& warnings) {
+  warnings.push_back({WarningCode::TEXT_SHORTENED,
                       "the text is too long for the paper and ends in an ellipsis. Use a shorter "
                       "job name or larger paper",
                       where});

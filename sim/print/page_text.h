@@ -38,10 +38,10 @@ using FindRoom = std::function<std::optional<Box>(const Eigen::Vector2d& size_mm
 
 /// Adds the warning text_glyph_missing if the font cannot draw some characters of the texts.
 void warn_of_missing_glyphs(const text::Font& font, const std::vector<Text>& texts,
-                            const std::string& where, Warnings& warnings);
+                            const Place& where, Warnings& warnings);
 
 /// Adds the warning text_shortened: the text is too long for the paper.
-void warn_of_shortened_text(const std::string& where, Warnings& warnings);
+void warn_of_shortened_text(const Place& where, Warnings& warnings);
 
 /// Height of a lower-case x in normal text, and in the smallest text.
 inline constexpr double kLetter_mm = 1.6, kSmallestLetter_mm = 0.9;

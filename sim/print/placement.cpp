@@ -245,14 +245,14 @@ Result<Placement> placement(const mesh::Surface& surface, const std::optional<Po
   Legend legend(page, *font, {margin, page.size_mm - margin}, object, origin_mm);
   const bool has_ruler = legend.add_ruler();
   const auto text = legend.add_text(lines_of(out, settings));
-  if (text && text->is_shortened) warn_of_shortened_text("page 1", out.warnings);
-  warn_of_missing_glyphs(*font, page.texts, "page 1", out.warnings);
+  if (text && text->is_shortened) warn_of_shortened_text({OnSheet{1}}, out.warnings);
+  warn_of_missing_glyphs(*font, page.texts, {OnSheet{1}}, out.warnings);
   if (!has_ruler || !text) {
     out.warnings.push_back(
-        {"template_cut_off",
+        {WarningCode::TEMPLATE_CUT_OFF,
          "the ruler or the text is left out, because there is not enough room beside the "
          "object. Use larger paper",
-         "page 1"});
+         {OnSheet{1}}});
   }
   HP_ASSIGN_OR_RETURN(Page pictures, orientation_page(surface, out.X_FO, page.size_mm, outline,
                                                       settings.printer_margin_mm, context));

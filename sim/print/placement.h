@@ -19,7 +19,7 @@ struct Placement {
   /// Centre and extent of the first contact with the water: the box around the cross-section
   /// kFirstContact_mm above the lowest point, in F.
   Eigen::Vector2d contact_mm = Eigen::Vector2d::Zero(), contact_size_mm = Eigen::Vector2d::Zero();
-  Warnings warnings;  ///< template_cut_off: the paper is too small for parts of the template
+  Warnings warnings;  ///< TEMPLATE_CUT_OFF: the paper is too small for parts of the template
 };
 
 /// Immersion for which the first contact is drawn.

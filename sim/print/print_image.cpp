@@ -101,12 +101,13 @@ Warning margin_warning(const Part& part, std::size_t number_of_sheet, double mar
   for (std::size_t i = 0; i < kEdges.size(); ++i) {
     if (part.at_edge[i]) edges += (edges.empty() ? "" : ", ") + std::string(kEdges[i]);
   }
-  return {"image_in_printer_margin",
-          fmt::format("{} mm2 of the image lie within {} mm of the paper's edge, which the printer "
-                      "cannot print, and stay white; place the object nearer the film's middle, or "
-                      "print without margin",
-                      three_digits(lost_mm2), margin_mm),
-          fmt::format("sheet {}: {}", number_of_sheet, edges)};
+  return {WarningCode::IMAGE_IN_PRINTER_MARGIN,
+          fmt::format(
+              "{} mm2 of the image lie within {} mm of the paper's edge ({}), which the printer "
+              "cannot print, and stay white; place the object nearer the film's middle, or "
+              "print without margin",
+              three_digits(lost_mm2), margin_mm, edges),
+          {OnSheet{static_cast<int>(number_of_sheet)}}};
 }
 
 void add_pages(const image::PrinterImage& image, const PrintSettings& settings, Print& print) {

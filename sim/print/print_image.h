@@ -30,7 +30,7 @@ struct Print {
   double dpi = 0;
   double most_ink = 0, limited_share = 0;  ///< see PrinterColoured
   double cut_off_mm2 = 0;  ///< coloured area in the printer's margin, which cannot be printed
-  Warnings warnings;       ///< those of the layout, and image_in_printer_margin
+  Warnings warnings;       ///< those of the layout, and IMAGE_IN_PRINTER_MARGIN
 };
 
 /// Reads a film image (written by `simulate`, or any PNG, JPEG or TIFF) as 8-bit sRGB with

@@ -28,7 +28,7 @@ std::string name_of(char32_t c) {
 
 }  // namespace
 
-Warning missing_glyphs_warning(const std::vector<char32_t>& characters, const std::string& where) {
+Warning missing_glyphs_warning(const std::vector<char32_t>& characters, const Place& where) {
   HP_CHECK(!characters.empty());
   std::string names;
   for (std::size_t i = 0; i < std::min(kMostNames, characters.size()); ++i) {
@@ -38,7 +38,7 @@ Warning missing_glyphs_warning(const std::vector<char32_t>& characters, const st
   if (characters.size() > kMostNames) {
     names += fmt::format(" and {} more", characters.size() - kMostNames);
   }
-  return {"text_glyph_missing",
+  return {WarningCode::TEXT_GLYPH_MISSING,
           fmt::format("the font cannot draw {}; the replacement character (U+FFFD) is drawn "
                       "instead. Use other characters",
                       names),

@@ -7,10 +7,10 @@
 
 namespace hydroprint::text {
 
-/// Returns the warning `text_glyph_missing`, which names the characters that are drawn as U+FFFD.
+/// Returns the warning `TEXT_GLYPH_MISSING`, which names the characters that are drawn as U+FFFD.
 /// @param characters  Line::missing, not empty
 /// @param where       location of the text, for the report
 [[nodiscard]] Warning missing_glyphs_warning(const std::vector<char32_t>& characters,
-                                             const std::string& where);
+                                             const Place& where);
 
 }  // namespace hydroprint::text

@@ -43,11 +43,12 @@ double exact_floor_stretch(const mesh::Model& model) {
 
 std::string list_of(const Warnings& warnings) {
   std::string out;
-  for (const Warning& w : warnings) out += (out.empty() ? "" : "; ") + w.code + ": " + w.message;
+  for (const Warning& w : warnings)
+    out += (out.empty() ? "" : "; ") + std::string(name_of(w.code)) + ": " + w.message;
   return out.empty() ? "none" : out;
 }
 
-bool warns(const pipeline::Dip& dip, const std::string& code) {
+bool warns(const pipeline::Dip& dip, WarningCode code) {
   return std::any_of(dip.warnings.begin(), dip.warnings.end(),
                      [&](const Warning& w) { return w.code == code; });
 }
@@ -70,10 +71,11 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
                "median stretch on the floor", "verdict on the floor", "warnings"},
               {}};
   struct Way {
-    std::string body, people, warning;
+    std::string body, people;
+    WarningCode warning;
   };
-  for (const Way& way : {Way{"bowl", "mouth down", "air_trapped"},
-                         Way{"bowl-upright", "upright", "parts_not_reached"}}) {
+  for (const Way& way : {Way{"bowl", "mouth down", WarningCode::AIR_TRAPPED},
+                         Way{"bowl-upright", "upright", WarningCode::PARTS_NOT_REACHED}}) {
     const Context next = steps.next();
     HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(way.body, next));
     const pipeline::Dip& dip = plan->dip;
@@ -89,7 +91,7 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
                            way.people +
                                ": 1 if the verdict on the floor is that it cannot be "
                                "printed and the warning " +
-                               way.warning + " is given",
+                               std::string(name_of(way.warning)) + " is given",
                            "", verdict.good() < 0.5 && warns(dip, way.warning) ? 1.0 : 0.0,
                            Limit{1, 1, "Fig. 17: it cannot be printed"}});
     HP_ASSIGN_OR_RETURN(const auto views,

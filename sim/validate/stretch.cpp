@@ -51,7 +51,8 @@ Status stretch(ExperimentContext& setup, Experiment& out, const Context& context
     HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(s.body, next));
     const pipeline::DipFigures& f = plan->dip.figures;
     std::string warnings;
-    for (const Warning& w : plan->dip.warnings) warnings += (warnings.empty() ? "" : ", ") + w.code;
+    for (const Warning& w : plan->dip.warnings)
+      warnings += (warnings.empty() ? "" : ", ") + std::string(name_of(w.code));
     figures.rows.push_back({s.people, percent(f.coverage), text_of(f.stretch_p50, 2),
                             text_of(f.stretch_p95, 2), percent(f.clamped_share),
                             percent(f.torn_share), percent(f.wrinkled_share),

@@ -15,7 +15,6 @@
 #include "sim/base/process/error_output.h"
 #include "sim/base/process/quiet_stderr.h"
 #include "sim/base/process/termination.h"
-#include "sim/base/utf8.h"
 #include "sim/worker/command_line.h"
 #include "sim/worker/common/fields.h"
 
@@ -79,10 +78,8 @@ void print_result(const Finished& finished, bool json) {
   std::fputs(finished.summary.c_str(), stdout);
   std::fflush(stdout);
   if (json) return;
-  for (const Warning& warning : finished.warnings) {
-    const std::string line = one_line(warning.message + " (" + warning.where + ")");
-    std::fprintf(stderr, "hydroprint-worker: warning: %s\n", line.c_str());
-  }
+  for (const std::string& warning : finished.warnings)
+    std::fprintf(stderr, "hydroprint-worker: warning: %s\n", warning.c_str());
 }
 
 int main_of(int argc, char** argv) {

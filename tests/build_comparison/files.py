@@ -3,7 +3,9 @@
 All files must be identical, except for these differences:
   - pictures with text (PICTURES_WITH_TEXT): pixels that are paper or ink in both may differ; the size may not;
   - PDF: the letters may differ; pages, boxes, other lines and images may not;
-  - report.json, report.html and other JSON: times, memory, wording and the camera's address may differ;
+  - report.json, report.html and other JSON: times, memory, wording and the camera's address may differ; keys may have
+    moved (BLOCKS, RENAMED), and a missing value equals 0, false, null and an empty text or list;
+  - summary.json: the summary may have become the report;
   - PLY: the new build may add properties of the faces (ADDED_TO_FACES);
   - film_profile.toml: comments may differ;
   - residuals.csv: the reason in the last column may differ.
@@ -34,6 +36,11 @@ MEASURED = {"total_seconds", "stage_seconds", "seconds", "peak_memory_bytes"}
 OF_THE_CALL = {"threads", "uri"}  # uri: path of the virtual rig's control socket
 WORDING = {"message", "why", "why_not", "text", "title", "caption", "paper", "method", "frame",
            "from_nominal_pose", "marks", "marks_dropped"}
+BLOCKS = {"run", "flow", "parameters", "dip", "mesh", "page", "fit", "print", "placement", "scan", "camera", "cells"}
+LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "depth_scale")
+RENAMED = {("interval", 0): ("low",), ("interval", 1): ("high",)} | {(name,): ("lens", i) for i, name in enumerate(LENS)}
+ROW_BY_ROW = {"matrix", "covariance", "covariance_turn_rad_shift_mm"}  # with or without a list for each row
+CHOICES = re.compile(r"(MODEL|COLOURS|ARTIFACT_SET)_")
 TABLES = {"where", "header", "rows"}  # wording whose numbers may not differ, except in warnings
 
 
@@ -100,15 +107,56 @@ def freedom_of(key, value):
     return "table" if key in TABLES else ""
 
 
+def leaves(value, path=()):
+    """Yields (path, value) for each value that must not differ, without the blocks of keys and what a default says."""
+    key = path[-1] if path else ""
+    if key in MEASURED | OF_THE_CALL | WORDING | {"where"} or not value or value == "full":
+        return
+    if isinstance(value, dict):
+        for name, entry in value.items():
+            yield from leaves(entry, path + (name,))
+    elif isinstance(value, list):
+        for i, entry in enumerate(value):
+            yield from leaves(entry, path if key in ROW_BY_ROW else path + (i,))
+    else:
+        path = tuple(part for part in path if part not in BLOCKS)
+        for old, new in RENAMED.items():
+            path = path[:-len(old)] + new if path[-len(old):] == old else path
+        yield path, CHOICES.sub("", value).lower() if isinstance(value, str) else value
+
+
+def differences_but_moves(old, new):
+    """Returns the paths at which two JSON values differ apart from the places of their keys."""
+    gathered = []
+    for value in (old, new):
+        by_path = {}
+        for path, leaf in leaves(value):
+            in_table = TABLES & set(path) or path[-1] == "reason"
+            by_path.setdefault(path, []).append(numbers(leaf) if in_table and isinstance(leaf, str) else leaf)
+        gathered.append(by_path)
+    first, second = gathered
+    return [".".join(map(str, path)) for path in first.keys() | second.keys() if first.get(path) != second.get(path)]
+
+
+def compare_summary(old, new):
+    if "report" in json.loads(new) and "report" not in json.loads(old):
+        return "the report", True
+    return compare_json(old, new)
+
+
 def compare_json(old, new):
     """Returns a description of the difference, and whether it is allowed."""
-    differences = list(json_differences(json.loads(old), json.loads(new)))
-    paths = sorted(path.lstrip(".") for path, freedom in differences if not freedom)
+    old, new = json.loads(old), json.loads(new)
+    differences = list(json_differences(old, new))
+    paths = [path.lstrip(".") for path, freedom in differences if not freedom]
     if paths:
+        paths = sorted(differences_but_moves(old, new))
+        if not paths:
+            return "moved keys", True
         return f"differs in {', '.join(paths[:5])}{f' and {len(paths) - 5} more' if len(paths) > 5 else ''}", False
     kinds = {"wording" if freedom == "table" else freedom for _, freedom in differences}
     if not kinds:
-        return "the same values, written differently", False
+        return "the same values, written differently", True
     return " and ".join(sorted(kinds - {"measured"})), True
 
 
@@ -238,8 +286,8 @@ def compare_exactly(old, new):
     return "bytes", False
 
 
-COMPARISONS = {"interface.json": compare_interface, "*.json": compare_json, "*.html": compare_html,
-               "film_profile.toml": compare_toml, "residuals.csv": compare_residuals,
+COMPARISONS = {"interface.json": compare_interface, "summary.json": compare_summary, "*.json": compare_json,
+               "*.html": compare_html, "film_profile.toml": compare_toml, "residuals.csv": compare_residuals,
                PICTURES_WITHOUT_TEXT: compare_png,
                **{name: functools.partial(compare_png, colours=colours)
                   for name, colours in PICTURES_WITH_TEXT.items()},

@@ -739,8 +739,14 @@ TEST_F(Cli, SubmitPrintsTheWarningsOfTheReport) {
   const std::string warned = mesh("warn the film tears");
   const Outcome ended = client({"submit", "simulate", "--mesh", warned, "--wait"});
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.err.find("hydroprint: warning: the film tears (here)\n"), std::string::npos)
+  EXPECT_NE(ended.err.find("hydroprint: warning: the film tears (surface)\n"), std::string::npos)
       << ended.err;
+  const Outcome report = client({"report", "1"});
+  EXPECT_NE(report.out.find("warning: the film tears (surface)\n"), std::string::npos)
+      << report.out;
+  const json whole = client_json({"report", "1"});
+  EXPECT_EQ(whole.at("simulate").at("run").at("warnings").at(0).at("code"), "FILM_TORN");
+  expect_error({"report", "9"}, 3, "jobs/9 does not exist");
   const Outcome silent = client({"submit", "simulate", "--mesh", mesh("sleep 0"), "--wait"});
   EXPECT_EQ(silent.status, 0) << silent.err;
   EXPECT_EQ(silent.err.find("warning"), std::string::npos) << silent.err;
@@ -773,7 +779,7 @@ TEST_F(CalibrateCli, CalibratePrintsItsResultAndSimulateUsesIt) {
         "1 of 2 markers", "marker near left out: hidden", "from the nominal pose: turn"}) {
     EXPECT_NE(ended.out.find(words), std::string::npos) << words << ended.out;
   }
-  EXPECT_TRUE(std::filesystem::exists(out() / "calibration.json"));
+  EXPECT_TRUE(std::filesystem::exists(out() / "report.json"));
   const json job = client_json(
       {"submit", "simulate", "--mesh", mesh("sleep 0.1"), "--calibration", "active", "--wait"});
   EXPECT_EQ(job.at("simulate").at("calibration"), "calibrations/1");

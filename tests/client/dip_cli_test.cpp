@@ -139,7 +139,7 @@ TEST_F(DipCli, YesToAllNeedsNoTerminal) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("dipped 5.0"), std::string::npos) << ended.out;
   EXPECT_NE(ended.err.find("DESCEND: "), std::string::npos) << ended.err;
-  EXPECT_EQ(report().at("water_temperature_c"), 24);
+  EXPECT_EQ(report().at("parameters").at("water_temperature_c"), 24);
   EXPECT_TRUE(std::filesystem::exists(out() / "positions.csv"));
 }
 

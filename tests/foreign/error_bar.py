@@ -201,7 +201,7 @@ def of_turned(surface: Surface, turned: Surface) -> list[Claim]:
 def of_tight(surface: Surface, report: dict) -> list[Claim]:
     """The report says that a tolerance was not reached."""
     above = share_of(surface.error > TIGHT_MM, surface.bounded)
-    warned = any("tolerance" in f"{warning['code']} {warning['message']}".lower() for warning in report["warnings"])
+    warned = any("tolerance" in f"{warning['code']} {warning['message']}".lower() for warning in report["run"]["warnings"])
     wrong = float(above > 0.05 and not warned)
     return [Claim("tolerance exceeded without a warning", wrong, 0, note=f"exceeded at {above:.3g} of the points")]
 
@@ -318,7 +318,8 @@ def judge_body(options: argparse.Namespace, name: str, model: str, folder: pathl
         yield from of_turned(surface, run(options, body.turned(), model, folder / "turned")[0])
     if name == "blob":
         loose = run(options, body, model, folder / "loose", "--tolerance-mm", f"{LOOSE_MM:g}")[1]
-        yield Claim(f"95 % error in the report at --tolerance-mm {LOOSE_MM:g}", stated_95_mm(loose), stated_95_mm(report))
+        yield Claim(f"95 % error in the report at --tolerance-mm {LOOSE_MM:g}", stated_95_mm(loose["flow"]),
+                    stated_95_mm(report["flow"]))
         yield from of_bad_input(options, body, folder)
 
 

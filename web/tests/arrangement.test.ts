@@ -1,18 +1,20 @@
 import { describe, expect, test } from 'vitest';
+import type { ModelSummary } from '../src/api/types';
 import { arrange, remedyForMissing } from '../src/model/arrangement';
 import { summaryOf } from './shapes';
 
 const file = (name: string) => ({ name });
 
 /** A model with texture coordinates whose colours come from these files. */
-const coloured = (companions: { name: string; is_missing?: boolean }[]) =>
-  summaryOf({ companions, has_texture_coordinates: true, has_colour: true });
-const kMtl = { name: 'spot.mtl' };
+const coloured = (companions: ModelSummary['companions']) =>
+  summaryOf({ companions, hasTextureCoordinates: true, hasColour: true });
+const named = (name: string) => ({ name, isMissing: false });
+const kMtl = named('spot.mtl');
 
 describe('the files of a print', () => {
   test('an image that the model names belongs to it; another image is the texture', () => {
     const [mtl, skin, other] = [file('spot.mtl'), file('Skin.PNG'), file('logo.png')];
-    const arranged = arrange(coloured([kMtl, { name: 'maps/skin.png' }]), [mtl], [skin, other]);
+    const arranged = arrange(coloured([kMtl, named('maps/skin.png')]), [mtl], [skin, other]);
     expect(arranged.extra).toEqual([
       { name: 'spot.mtl', file: mtl },
       { name: 'Skin.PNG', file: skin },
@@ -30,7 +32,7 @@ describe('the files of a print', () => {
   test('names that differ only in their Unicode form, folder or slashes are the same', () => {
     for (const name of ['grün.png'.normalize('NFC'), 'C:\\maps\\grün.png']) {
       const image = file('grün.png'.normalize('NFD'));
-      expect(arrange(coloured([{ name }]), [], [image]).texture).toBeUndefined();
+      expect(arrange(coloured([named(name)]), [], [image]).texture).toBeUndefined();
     }
   });
 
@@ -42,7 +44,7 @@ describe('the files of a print', () => {
 
 describe('a missing file', () => {
   const missing = (...names: string[]) =>
-    coloured(names.map((name) => ({ name, is_missing: true })));
+    coloured(names.map((name) => ({ name, isMissing: true })));
 
   test('is named with a remedy', () => {
     const arranged = arrange(missing('textures/skin.png'), [], []);
@@ -84,14 +86,14 @@ describe('a mesh without texture coordinates', () => {
 
   test('takes the only image that it names, which cannot be placed otherwise', () => {
     const [mtl, skin] = [file('spot.mtl'), file('skin.png')];
-    const summary = summaryOf({ companions: [kMtl, { name: 'skin.png' }] });
+    const summary = summaryOf({ companions: [kMtl, named('skin.png')] });
     const { texture, extra } = arrange(summary, [mtl], [skin]);
     expect(texture).toBe(skin);
     expect(extra.map(({ name }) => name)).toEqual(['spot.mtl']);
   });
 
   test('takes none of several images that it names', () => {
-    const images = [file('skin.png'), file('eyes.png')];
+    const images = [named('skin.png'), named('eyes.png')];
     const arranged = arrange(summaryOf({ companions: images }), [], images);
     expect(arranged.texture).toBeUndefined();
     expect(arranged).toMatchObject({ hasOwnColours: false, unused: [] });

@@ -29,21 +29,21 @@ test.each([text(''), text('{"coverage": 1'), text('{}\nabc')])(
 
 afterEach(() => vi.unstubAllGlobals());
 
-const kSummary = {
+/** The extras of a model, with the names of the .proto file. */
+const kExtras = {
   format: 'OBJ',
   scale: 10,
   lowest_mm: [1000, 0, 0],
   highest_mm: [1010, 20, 0],
   has_colour: true,
-  triangles: 2,
-  shown_triangles: 2,
+  companions: [{ name: 'my_skin.png', is_missing: true }],
 };
 
 /**
  * A binary glTF of three primitives that share their vertices; the second vertex and the last are at one place. The first
  * primitive has a factor, the others a picture each. It is what `inspect` writes.
  */
-function glb(extras: object = kSummary): ArrayBuffer {
+function glb(extras: object = kExtras): ArrayBuffer {
   const floats = (...numbers: number[]) => new Uint8Array(Float32Array.from(numbers).buffer);
   const views = [
     floats(0, 0, 0, 10, 0, 0, 0, 20, 0, 10, 0, 0),
@@ -145,7 +145,14 @@ test('the places of a model are in mm of the object frame, its mesh and box in u
   expect([...mesh.positions]).toEqual([100, 0, 0, 101, 0, 0, 100, 2, 0, 101, 0, 0]);
   expect([...mesh.indices]).toEqual([0, 1, 2, 2, 3, 0, 0, 1, 2]);
   expect(box).toEqual({ min: [100, 0, 0], max: [101, 2, 0] });
-  expect(summary).toEqual(kSummary);
+  expect(summary).toEqual({
+    format: 'OBJ',
+    scale: 10,
+    lowestMm: [1000, 0, 0],
+    highestMm: [1010, 20, 0],
+    hasColour: true,
+    companions: [{ name: 'my_skin.png', isMissing: true }],
+  });
 });
 
 test('its colours are in linear light without alpha, and v points up', async () => {
@@ -166,7 +173,7 @@ test('each part has its factor, or its picture with its wrap', async () => {
 });
 
 test('a model without any colour is grey', async () => {
-  const { mesh } = await read(glb({ ...kSummary, has_colour: false }));
+  const { mesh } = await read(glb({ ...kExtras, has_colour: false }));
   for (const { look } of mesh.parts) {
     expect(look.picture).toBeUndefined();
     expect(new Set(look.colour).size).toBe(1);

@@ -1,10 +1,9 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { InspectSpec, Role } from '../src/api/types';
+import type { InspectSpec, ModelSummary, Role, Warning } from '../src/api/types';
 import type { upload } from '../src/api/uploads';
 import type { Engine } from '../src/engine/engine';
 import { add } from '../src/model/dips';
 import { done, refused } from '../src/model/result';
-import type { Summary } from '../src/model/summary';
 import {
   centre_mm,
   change,
@@ -23,6 +22,7 @@ import {
   cancel,
   colourless,
   inputsOf,
+  notes,
   problems,
   remove,
   startOver,
@@ -33,9 +33,9 @@ import { stage } from '../src/screens/new_print/reading';
 import { shapeOf } from './shapes';
 
 /** What the daemon understands of the files. */
-const kSummaries: Record<string, Partial<Summary>> = {
+const kSummaries: Record<string, Partial<ModelSummary>> = {
   'bunny.stl': { format: 'STL' },
-  'spot.obj': { has_texture_coordinates: true, has_colour: true },
+  'spot.obj': { hasTextureCoordinates: true, hasColour: true },
 };
 const kCompanions = ['spot.mtl', 'skin.png'];
 
@@ -53,14 +53,14 @@ async function answer({ mesh, extraFiles = [], shapeOnly }: InspectSpec) {
   const known = kSummaries[mesh.name!];
   if (!known) return refused('it is damaged', undefined, { reason: 'INPUT_REFUSED' });
   const there = new Set(extraFiles.map(({ name }) => name));
-  const companions = kCompanions.map((name) => ({ name, is_missing: !there.has(name) }));
-  const isComplete = mesh.name !== 'spot.obj' || companions.every(({ is_missing }) => !is_missing);
+  const companions = kCompanions.map((name) => ({ name, isMissing: !there.has(name) }));
+  const isComplete = mesh.name !== 'spot.obj' || companions.every(({ isMissing }) => !isMissing);
   if (!isComplete && !shapeOnly)
     return refused('no such file: skin.png', 'Put it there', { reason: 'INPUT_REFUSED' });
   const { source: _, ...model } = shapeOf({
     ...known,
     ...(mesh.name === 'spot.obj' ? { companions } : {}),
-    ...(shapeOnly ? { has_colour: false } : {}),
+    ...(shapeOnly ? { hasColour: false } : {}),
   });
   return done(model);
 }
@@ -111,6 +111,23 @@ test('a missing texture is named until it is added', async () => {
   expect(colourless.value).toMatchObject([{ name: 'skin.png' }]);
   await take([picture('skin.png')]);
   expect(arrangement.value.missing).toEqual([]);
+});
+
+test('a missing material is named once', async () => {
+  const missing: Warning = {
+    code: 'MATERIAL_FILE_MISSING',
+    message: 'the material file spot.mtl was not found',
+    where: { dip: 0, file: { name: 'spot.obj', line: 0 } },
+  };
+  const other: Warning = { code: 'MESH_OPEN', message: 'the mesh has open edges' };
+  asked.read.mockImplementation(async (spec) => {
+    const read = await answer({ ...spec, shapeOnly: true });
+    if (read.ok) read.value.summary.warnings = [missing, other];
+    return read;
+  });
+  await take([obj()]);
+  expect(names(colourless.value)).toEqual(['spot.mtl', 'skin.png']);
+  expect(notes.value).toEqual([other]);
 });
 
 test('another texture replaces the missing one; without it, the file is missing again', async () => {
@@ -333,7 +350,9 @@ test('an upload that fails names its file', async () => {
   asked.upload.mockResolvedValue(refused('the disk is full', 'Delete old jobs'));
   await take([stl()]);
   expect(asked.read).not.toHaveBeenCalled();
-  expect(problems.value).toEqual([{ name: 'bunny.stl', why: 'the disk is full. Delete old jobs' }]);
+  expect(problems.value).toEqual([
+    { name: 'bunny.stl', why: 'bunny.stl: the disk is full. Delete old jobs' },
+  ]);
 });
 
 test('a damaged model does not replace the one that is there', async () => {
@@ -358,8 +377,8 @@ test('a new model replaces the old one and its texture, but not the film', async
 test('a job needs none of the dropped files that its model names', async () => {
   const from = { name: 'jobs/7', spec: { mesh: { name: 'spot.obj', asset: 'assets/1' } } };
   change({ from: from as unknown as NonNullable<Draft['from']> });
-  const companions = kCompanions.map((name) => ({ name, is_missing: true }));
-  shape.value = shapeOf({ companions, has_texture_coordinates: true });
+  const companions = kCompanions.map((name) => ({ name, isMissing: true }));
+  shape.value = shapeOf({ companions, hasTextureCoordinates: true });
   const skin = picture('skin.png');
   await take([skin]);
   expect(arrangement.value).toMatchObject({ texture: skin, missing: [] });

@@ -1,12 +1,30 @@
-import { expect, test } from 'vitest';
-import type { Queue } from '../src/api/types';
-import { clusterReason, holdReason } from '../src/ui/job_text';
+import { h, render, type VNode } from 'preact';
+import { expect, test, vi } from 'vitest';
+import type { Job, Queue } from '../src/api/types';
+import { holdReason, JobProgress, State } from '../src/ui/job_text';
+import { TinyNode, tinyDocument } from './tiny_dom';
 
-test('a job that waits in the queue of a cluster has its reason', () => {
-  expect(clusterReason({ state: 'RUNNING', phase: 'waiting: Resources' })).toBe('Resources');
-  expect(clusterReason({ state: 'RUNNING', phase: 'velocity' })).toBeUndefined();
-  expect(clusterReason({ state: 'CANCELLING', phase: 'waiting: Resources' })).toBeUndefined();
-  expect(clusterReason({ state: 'RUNNING', phase: '' })).toBeUndefined();
+vi.stubGlobal('document', tinyDocument);
+
+function textOf(shown: VNode): string {
+  const page = new TinyNode(1, 'main');
+  render(shown, page as unknown as Element);
+  return page.text;
+}
+
+test('a running job that waits is shown as waiting, with its reason', () => {
+  const job = { name: 'jobs/7', state: 'RUNNING', progressFraction: 0.5 } as Job;
+  const shown = (waitsFor: string) =>
+    textOf(
+      h(
+        'p',
+        {},
+        h(State, { state: job.state, waitsFor }),
+        h(JobProgress, { job: { ...job, waitsFor } }),
+      ),
+    );
+  expect(shown('Resources')).toBe('waitingwaiting: Resources');
+  expect(shown('')).toBe('running50 %');
 });
 
 test('a job that waits shows why no job starts', () => {

@@ -76,20 +76,20 @@ describe('a surface map', () => {
   });
 
   test.each([
-    ['film_torn', 1],
-    ['film_wrinkled', 2],
-    ['theta_clamped', 4],
-    ['parts_not_reached', 8],
-    ['film_edge_reached', 8],
-    ['air_trapped', 16],
-    ['stretch_beyond_stokes', 0],
+    ['FILM_TORN', 1],
+    ['FILM_WRINKLED', 2],
+    ['THETA_CLAMPED', 4],
+    ['PARTS_NOT_REACHED', 8],
+    ['FILM_EDGE_REACHED', 8],
+    ['AIR_TRAPPED', 16],
+    ['STRETCH_BEYOND_STOKES', 0],
   ])('the warning %s selects the triangles with its flag', (code, flag) => {
     expect(placesOf(code, readSurfaceMap(surfaceMap([1, 4, NaN], flag)))).toEqual(flag ? [0] : []);
     expect(placesOf(code, readSurfaceMap(surfaceMap([1, 4, NaN], 63 - flag)))).toEqual([]);
   });
 
   test('without flags has no triangles for warnings', () => {
-    expect(placesOf('film_torn', readSurfaceMap(bytesOf(text)))).toEqual([]);
+    expect(placesOf('FILM_TORN', readSurfaceMap(bytesOf(text)))).toEqual([]);
   });
 
   test('is refused if it is incomplete', () => {

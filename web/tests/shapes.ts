@@ -1,21 +1,28 @@
 /** Models as the engine returns them, for tests. */
+import type { ModelSummary } from '../src/api/types';
 import type { Box } from '../src/model/mesh';
-import type { Summary } from '../src/model/summary';
 import type { Shape } from '../src/screens/new_print/draft';
 
-export const summaryOf = (more: Partial<Summary> = {}): Summary => ({
+export const summaryOf = (more: Partial<ModelSummary> = {}): ModelSummary => ({
   format: 'OBJ',
   scale: 1,
-  lowest_mm: [0, 0, 0],
-  highest_mm: [9, 9, 0],
+  vertices: 3,
   triangles: 1,
-  shown_triangles: 1,
+  lowestMm: [0, 0, 0],
+  highestMm: [9, 9, 0],
+  hasTextureCoordinates: false,
+  hasColour: false,
+  materials: [],
+  notUnderstood: [],
+  shownTriangles: 1,
+  warnings: [],
+  companions: [],
   ...more,
 });
 
 /** A triangle. */
 export const shapeOf = (
-  summary: Partial<Summary> = {},
+  summary: Partial<ModelSummary> = {},
   box: Box = { min: [0, 0, 0], max: [9, 9, 0] },
 ): Shape => {
   const positions = Float32Array.of(0, 0, 0, 9, 0, 0, 0, 9, 0);

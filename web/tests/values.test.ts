@@ -5,7 +5,6 @@ import { readGrey16 } from '../src/model/grey16';
 import { cutToBytes, limitsOf } from '../src/model/limits';
 import { fit, pan, pixelAt, zoomAt } from '../src/model/pan_zoom';
 import { readPositions } from '../src/model/positions';
-import { placeOf } from '../src/model/report';
 import {
   formatBytes,
   formatSeconds,
@@ -156,13 +155,7 @@ describe('a picture in its window', () => {
   });
 });
 
-describe('files and messages of the daemon', () => {
-  test('the point in a warning is parsed', () => {
-    expect(placeOf('12.30 mm immersion, at (-4.00, 17.50) mm')).toEqual([-4, 17.5, 12.3]);
-    expect(placeOf('surface')).toBeUndefined();
-    expect(placeOf('12.30 mm immersion')).toBeUndefined();
-  });
-
+describe('files of the daemon', () => {
   test('positions are read up to the end of an incomplete record', () => {
     const text = 't_s,depth_mm,position_mm\n0.0,-20.0,100.5\n0.1,-19.5,101.0\n0.2,-1';
     expect(readPositions(text)).toEqual([

@@ -15,6 +15,7 @@ void add_submit(CLI::App& app, Program& program);
 void add_watch(CLI::App& app, Program& program);
 void add_list(CLI::App& app, Program& program);
 void add_show(CLI::App& app, Program& program);
+void add_report(CLI::App& app, Program& program);
 void add_events(CLI::App& app, Program& program);
 void add_cancel(CLI::App& app, Program& program);
 void add_retry(CLI::App& app, Program& program);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "client/cli/commands/commands.h"
+#include "client/cli/format/job_display.h"
 #include "client/cli/format/json.h"
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
@@ -23,8 +24,9 @@ Status events(Program& program, const std::string& name) {
   for (const v1::JobEvent& event : list.events())
     std::cout << format_time(client::time_of(event.time())) << "  " << client::name_of(event.kind())
               << "  " << client::name_of(event.state()) << "  "
-              << std::lround(100 * event.progress_fraction()) << "%  " << printable(event.phase())
-              << "  " << printable(event.message()) << "\n";
+              << std::lround(100 * event.progress_fraction()) << "%  "
+              << printable(phase_text(event.phase(), event.waits_for())) << "  "
+              << printable(event.message()) << "\n";
   return {};
 }
 

@@ -12,6 +12,7 @@
 #include "client/cli/terminal/console.h"
 #include "client/preview.h"
 #include "proto/model_summary_text.h"
+#include "proto/warning_message.h"
 #include "sim/base/artifact_file.h"
 
 namespace hydroprint::cli {
@@ -25,10 +26,8 @@ struct InspectOptions {
 
 void show(const std::string& file, const v1::ModelSummary& summary) {
   std::printf("%s: %s", printable(file).c_str(), model_summary_text(summary).c_str());
-  for (const v1::ReportWarning& warning : summary.warnings()) {
-    std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message()).c_str(),
-                 printable(warning.where()).c_str());
-  }
+  for (const v1::Warning& warning : summary.warnings())
+    std::fprintf(stderr, "hydroprint: warning: %s\n", hydroprint::text_of(warning).c_str());
 }
 
 Status inspect_file(Program& program, const InspectOptions& options, const std::string& file) {

@@ -7,7 +7,7 @@
 #include "client/cli/format/json.h"
 #include "client/cli/job_io/submit_flags.h"
 #include "client/cli/program/program.h"
-#include "client/cli/terminal/console.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -17,10 +17,8 @@ void show(const v1::Preview& preview) {
       "film reaches %.0f %% of the surface at a depth of %.1f mm; stretch is below %.2f for half "
       "of that, below %.2f for 95 %%\n",
       100 * preview.coverage(), preview.depth_mm(), preview.stretch_p50(), preview.stretch_p95());
-  for (const v1::Preview::Warning& warning : preview.warnings()) {
-    std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message()).c_str(),
-                 printable(warning.where()).c_str());
-  }
+  for (const v1::Warning& warning : preview.warnings())
+    std::fprintf(stderr, "hydroprint: warning: %s\n", hydroprint::text_of(warning).c_str());
 }
 
 Status preview(Program& program, const SubmitOptions& options) {

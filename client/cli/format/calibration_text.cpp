@@ -4,6 +4,7 @@
 
 #include "client/cli/terminal/console.h"
 #include "client/name_of.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -31,8 +32,8 @@ std::string object_text(const v1::Calibration& c) {
   for (const std::string& what : c.symmetries())
     out +=
         fmt::format("  not measured, because it does not move the surface: {}\n", printable(what));
-  for (const std::string& warning : c.warnings())
-    out += fmt::format("  warning: {}\n", printable(warning));
+  for (const v1::Warning& warning : c.warnings())
+    out += fmt::format("  warning: {}\n", hydroprint::text_of(warning));
   if (c.has_contact_mm()) out += fmt::format("  first contact at {:.2f} mm\n", c.contact_mm());
   if (c.job().empty()) out += "  entered by hand\n";
   return out;

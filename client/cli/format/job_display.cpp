@@ -6,8 +6,10 @@
 #include <chrono>
 #include <utility>
 
+#include "client/dip.h"
 #include "client/job.h"
 #include "client/name_of.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -27,17 +29,25 @@ std::string message_of(const v1::WatchJobResponse& update) {
   const std::string& message = update.event().message();
   const v1::DipStatus& status = update.job().dip_status();
   const auto& warnings = status.warnings();
-  const bool is_shown = message == status.instruction() ||
-                        std::find(warnings.begin(), warnings.end(), message) != warnings.end();
+  const bool is_shown =
+      message == status.instruction() ||
+      std::any_of(warnings.begin(), warnings.end(),
+                  [&](const v1::Warning& warning) { return warning.message() == message; });
   return is_shown ? "" : message;
 }
 
+std::string phase_text(const std::string& phase, const std::string& waits_for) {
+  return waits_for.empty() ? phase : "waiting: " + waits_for;
+}
+
 std::vector<std::string> new_warnings(const v1::DipStatus& before, const v1::DipStatus& now) {
-  std::vector<std::string> news;
-  for (const std::string& warning : now.warnings())
-    if (std::find(before.warnings().begin(), before.warnings().end(), warning) ==
-        before.warnings().end())
-      news.push_back(warning);
+  std::vector<std::string> known, news;
+  for (const v1::Warning& warning : before.warnings())
+    known.push_back(hydroprint::text_of(warning));
+  for (const v1::Warning& warning : now.warnings()) {
+    const std::string text = hydroprint::text_of(warning);
+    if (std::find(known.begin(), known.end(), text) == known.end()) news.push_back(text);
+  }
   return news;
 }
 
@@ -47,7 +57,7 @@ void JobDisplay::update(const v1::WatchJobResponse& update) {
   const auto take = [this](const auto& source) {
     state_ = source.state();
     progress_fraction_ = source.progress_fraction();
-    phase_ = source.phase();
+    phase_ = phase_text(source.phase(), source.waits_for());
     eta_time_ = client::time_of(source.eta_time());
   };
   if (update.has_event()) take(update.event());
@@ -63,7 +73,8 @@ void JobDisplay::take_dip(const v1::DipStatus& status) {
   for (const std::string& warning : new_warnings(dip_.value_or(v1::DipStatus()), status))
     say(job_ + ": warning: " + warning);
   if (!dip_ || dip_->step() != status.step())
-    say(fmt::format("{}: {}: {}", job_, client::name_of(status.step()), status.instruction()));
+    say(fmt::format("{}: {}: {}", job_, client::name_of(status.step()),
+                    client::instruction_of(status)));
   dip_ = status;
 }
 

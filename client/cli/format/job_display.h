@@ -13,6 +13,9 @@ namespace hydroprint::cli {
 /// Returns the message of an update; empty if there is none, or if dip_status already contains it.
 [[nodiscard]] std::string message_of(const v1::WatchJobResponse& update);
 
+/// Returns the phase of a job, or what it waits for.
+[[nodiscard]] std::string phase_text(const std::string& phase, const std::string& waits_for);
+
 /// Returns the warnings of `now` that are not in `before`.
 [[nodiscard]] std::vector<std::string> new_warnings(const v1::DipStatus& before,
                                                     const v1::DipStatus& now);

@@ -1,27 +1,8 @@
 #include "client/cli/job_io/dip_record.h"
 
-#include "client/cli/terminal/console.h"
-#include "sim/base/checked_json.h"
+#include <fmt/format.h>
 
 namespace hydroprint::cli {
-namespace {
-
-// Returns for example ", 20.00 mm deep"; empty if the report lacks the number.
-std::string figure_text(const nlohmann::json& report, const char* key, const std::string& before,
-                        const std::string& after, double scale = 1) {
-  const auto number = json_number(report, key);
-  return number ? before + format_fixed(scale * *number) + after : "";
-}
-
-nlohmann::json read_report(const std::vector<Downloaded>& files) {
-  for (const Downloaded& file : files) {
-    if (client::file_name(file.artifact) == "report.json")
-      return read_json_file(file.path).value_or(nullptr);
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon, const std::string& job,
                                              const std::filesystem::path& folder) {
@@ -30,14 +11,17 @@ Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon, const s
   return download_all(daemon, job, {}, folder);
 }
 
-std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files) {
-  const nlohmann::json report = read_report(files);
-  const nlohmann::json& descent = json_at(report, "descent");
-  return job.name() + ": dipped" + figure_text(report, "depth_reached_mm", " ", " mm deep") +
-         figure_text(descent, "speed_mm_per_s", " at ", " mm/s") +
-         figure_text(descent, "largest_deviation_share", ", constant within ", " %", 100) +
-         figure_text(descent, "largest_deviation_mm", " and ", " mm") +
-         figure_text(descent, "deviation_uncertainty_mm", " (uncertainty ", " mm)");
+std::string dip_summary(const std::string& job, const v1::DipReport& report) {
+  std::string out = job + ": dipped";
+  if (report.has_depth_reached_mm())
+    out += fmt::format(" {:.2f} mm deep", report.depth_reached_mm());
+  if (!report.has_descent()) return out;
+  const v1::DipReport::Descent& descent = report.descent();
+  return out +
+         fmt::format(
+             " at {:.2f} mm/s, constant within {:.2f} % and {:.2f} mm (uncertainty {:.2f} mm)",
+             descent.speed_mm_per_s(), 100 * descent.largest_deviation_share(),
+             descent.largest_deviation_mm(), descent.deviation_uncertainty_mm());
 }
 
 }  // namespace hydroprint::cli

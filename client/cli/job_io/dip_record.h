@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/cli/job_io/wait.h"
-#include "client/job.h"
+#include "hydroprint/v1/report.pb.h"
 
 namespace hydroprint::cli {
 
@@ -15,8 +15,8 @@ namespace hydroprint::cli {
                                                            const std::string& job,
                                                            const std::filesystem::path& folder);
 
-/// Summarizes a dip's record in one line: depth, speed, largest deviation from constant speed.
-/// Omits values that are missing from report.json.
-[[nodiscard]] std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files);
+/// Summarizes a dip in one line: depth, speed, largest deviation from constant speed. Omits what
+/// the report lacks.
+[[nodiscard]] std::string dip_summary(const std::string& job, const v1::DipReport& report);
 
 }  // namespace hydroprint::cli

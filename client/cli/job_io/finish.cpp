@@ -3,11 +3,10 @@
 #include <iostream>
 #include <vector>
 
-#include "client/artifacts.h"
 #include "client/cli/format/json.h"
-#include "client/cli/job_io/scratch_folder.h"
-#include "client/cli/terminal/console.h"
-#include "sim/base/checked_json.h"
+#include "client/cli/format/report_text.h"
+#include "client/jobs.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 
@@ -53,21 +52,13 @@ Status finish_job(Program& program, const v1::Job& job, const FinishOptions& opt
 }
 
 Status tell_warnings(Program& program, const std::string& job) {
-  HP_ASSIGN_OR_RETURN(const auto list, client::list_artifacts(program.daemon(), job));
-  for (const v1::Artifact& artifact : list.artifacts()) {
-    if (client::file_name(artifact) != "report.json") continue;
-    const ScratchFolder scratch;
-    HP_ASSIGN_OR_RETURN(const auto file,
-                        client::download(program.daemon(), artifact, scratch.path()));
-    const auto report = read_json_file(file);
-    if (!report) return {};  // the job succeeded all the same
-    for (const auto& warning : json_at(*report, "warnings")) {
-      const std::string where = json_string(warning, "where").value_or("");
-      const std::string line =
-          json_string(warning, "message").value_or("") + (where.empty() ? "" : " (" + where + ")");
-      std::cerr << "hydroprint: warning: " << printable(line) << std::endl;
-    }
+  const auto report = client::job_report(program.daemon(), job);
+  if (!report) {  // the job succeeded all the same
+    const bool has_none = report.error().reason.starts_with("ARTIFACT_");
+    return has_none ? Status() : tl::unexpected(report.error());
   }
+  for (const v1::Warning& warning : run_of(*report).warnings())
+    std::cerr << "hydroprint: warning: " << hydroprint::text_of(warning) << std::endl;
   return {};
 }
 

@@ -31,8 +31,10 @@ constexpr double kRoundDepth_mm = 90;  ///< immersion of the sphere, slightly be
 /// Returns kAborted with the warnings of a calibration that is too uncertain for a print.
 Status check_usable(const v1::Calibration& found) {
   if (found.warnings().empty()) return {};
-  return fail(Code::kAborted,
-              fmt::format("{}: {}", found.name(), fmt::join(found.warnings(), "; ")));
+  std::string texts;
+  for (const v1::Warning& warning : found.warnings())
+    texts += (texts.empty() ? "" : "; ") + warning.message();
+  return fail(Code::kAborted, found.name() + ": " + texts);
 }
 
 }  // namespace

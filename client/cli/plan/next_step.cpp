@@ -48,7 +48,8 @@ class DipOfPlan {
         out_(options.out.empty() ? fmt::format("dip-{}", dip.immersion()) : options.out) {}
 
   Status take_step() {
-    if (dip_.step() != v1::PlanProgress::DONE) say(program_, step_text(dip_));
+    if (dip_.step() != v1::PlanProgress::DONE)
+      say(program_, step_text(dip_, progress_.dips_size()));
     switch (dip_.step()) {
       case v1::PlanProgress::CALIBRATE:
         return calibrate();

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "client/cli/terminal/console.h"
+#include "client/dip.h"
 #include "client/name_of.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -32,9 +34,13 @@ std::string state_of(const v1::PlanProgress::Dip& dip) {
 std::string notes_of(const v1::PlanProgress::Dip& dip, const std::string& indent) {
   std::string out;
   if (!dip.trouble().empty()) out += fmt::format("{}note: {}\n", indent, printable(dip.trouble()));
-  for (const std::string& warning : dip.warnings())
-    out += fmt::format("{}warning: {}\n", indent, printable(warning));
+  for (const v1::Warning& warning : dip.warnings())
+    out += fmt::format("{}warning: {}\n", indent, hydroprint::text_of(warning));
   return out;
+}
+
+std::string instruction_of(const v1::PlanProgress::Dip& dip, int count) {
+  return client::which_dip(dip.immersion(), count) + printable(dip.instruction());
 }
 
 std::string number_of(const std::string& job) { return job.substr(job.find('/') + 1); }
@@ -60,12 +66,12 @@ std::string next_text(const v1::PlanProgress& progress) {
   if (next == 0)
     return count == 1 ? "the dip is done\n" : fmt::format("all {} dips are done\n", count);
   std::string out = fmt::format("next: hydroprint plan next {}\n", number_of(progress.plan_job()));
-  if (next <= count) out += "  " + printable(progress.dips(next - 1).instruction()) + "\n";
+  if (next <= count) out += "  " + instruction_of(progress.dips(next - 1), count) + "\n";
   return out;
 }
 
-std::string step_text(const v1::PlanProgress::Dip& dip) {
-  return printable(dip.instruction()) + "\n" + notes_of(dip, "  ");
+std::string step_text(const v1::PlanProgress::Dip& dip, int count) {
+  return instruction_of(dip, count) + "\n" + notes_of(dip, "  ");
 }
 
 }  // namespace hydroprint::cli

@@ -13,6 +13,7 @@ namespace hydroprint::cli {
 [[nodiscard]] std::string next_text(const v1::PlanProgress& progress);
 
 /// Returns the step of a dip in one line, with the dip's trouble and warnings below.
-[[nodiscard]] std::string step_text(const v1::PlanProgress::Dip& dip);
+/// @param count  number of dips of the plan
+[[nodiscard]] std::string step_text(const v1::PlanProgress::Dip& dip, int count);
 
 }  // namespace hydroprint::cli

@@ -142,7 +142,7 @@ class Guide {
     begun_ = std::chrono::system_clock::now();
     drawn_ = {};
     line_.say("");
-    line_.say(client::name_of(status.step()) + ": " + status.instruction());
+    line_.say(client::name_of(status.step()) + ": " + client::instruction_of(status));
     jogger_.reset();
     if (status.step() == v1::DipStatus::FIND_CONTACT) {
       line_.say(kJogKeys);

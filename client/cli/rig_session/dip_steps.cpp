@@ -6,6 +6,7 @@
 #include "client/cli/terminal/console.h"
 #include "client/dip.h"
 #include "client/name_of.h"
+#include "proto/warning_message.h"
 
 namespace hydroprint::cli {
 
@@ -18,9 +19,9 @@ void print_dip(const Program& program, const v1::Job& job) {
   std::cout << job.name() << "\n";
   if (job.has_dip_status()) {
     const std::string step = client::name_of(job.dip_status().step());
-    for (const std::string& warning : job.dip_status().warnings())
-      std::cout << "warning: " << printable(warning) << "\n";
-    std::cout << step << ": " << printable(job.dip_status().instruction()) << "\n";
+    for (const v1::Warning& warning : job.dip_status().warnings())
+      std::cout << "warning: " << hydroprint::text_of(warning) << "\n";
+    std::cout << step << ": " << printable(client::instruction_of(job.dip_status())) << "\n";
     if (client::waits_for_operator(job.dip_status().step()))
       std::cout << "then: hydroprint confirm " << job.name() << " " << step << "\n";
   }

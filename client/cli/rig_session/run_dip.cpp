@@ -52,7 +52,7 @@ Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::J
   return abort_dip(program, job.name());
 }
 
-void print_result(const Program& program, const v1::Job& job,
+void print_result(const Program& program, client::Connection& daemon, const v1::Job& job,
                   const std::vector<Downloaded>& files) {
   if (program.json()) {
     Json json = to_json(job);
@@ -61,7 +61,10 @@ void print_result(const Program& program, const v1::Job& job,
     return;
   }
   for (const Downloaded& file : files) std::cout << file.path.string() << "\n";
-  if (job.state() == v1::Job::SUCCEEDED) std::cout << dip_summary(job, files) << "\n";
+  if (job.state() == v1::Job::SUCCEEDED) {
+    const v1::JobReport report = client::job_report(daemon, job.name()).value_or(v1::JobReport());
+    std::cout << dip_summary(job.name(), report.dip()) << "\n";
+  }
   std::cout << std::flush;
 }
 
@@ -71,7 +74,7 @@ Status finish(const Program& program, const v1::Job& job, const DipOptions& opti
   if (!options.out.empty()) {
     HP_ASSIGN_OR_RETURN(files, fetch_record(daemon, job.name(), options.out));
   }
-  print_result(program, job, files);
+  print_result(program, daemon, job, files);
   if (job.state() == v1::Job::SUCCEEDED) return {};
   return tl::unexpected(why(job));
 }

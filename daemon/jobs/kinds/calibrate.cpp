@@ -1,17 +1,16 @@
 // Computes the pose of the object over the film from depth frames.
 #include "daemon/jobs/adopted_files.h"
-#include "daemon/jobs/calibration_file.h"
+#include "daemon/jobs/calibration_report.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/calibration_service.pb.h"
 #include "hydroprint/v1/job.pb.h"
-#include "sim/base/input_file.h"
+#include "hydroprint/v1/report.pb.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::size_t kLargestCalibration = 4 << 20;
 constexpr const char* kLens = "camera.json";
 
 /// Returns the lens calibration named in a spec, otherwise the active one; nullopt if there is
@@ -42,14 +41,12 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
   [[nodiscard]] bool is_cacheable() const override { return false; }
 
   [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
-      const Job& job, const std::filesystem::path& artifacts) const override {
+      const Job& job, const v1::JobReport& report) const override {
     v1::Job body;
     body.ParseFromString(job.definition.body);
     const v1::CalibrateSpec& spec = body.calibrate();
     v1::Calibration found;
-    HP_ASSIGN_OR_RETURN(const std::string text,
-                        read_text_file(artifacts / "calibration.json", kLargestCalibration));
-    HP_RETURN_IF_ERROR(read_calibration(text, found));
+    HP_RETURN_IF_ERROR(take_calibration(report.calibrate().calibration(), found));
     take_object(spec, found);
     found.set_display_name(job.definition.display_name);
     NewCalibration out;

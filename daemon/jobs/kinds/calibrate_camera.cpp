@@ -2,19 +2,17 @@
 #include <fmt/format.h>
 
 #include "daemon/jobs/adopted_files.h"
-#include "daemon/jobs/calibration_file.h"
+#include "daemon/jobs/calibration_report.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/calibration_service.pb.h"
-#include "sim/base/input_file.h"
+#include "hydroprint/v1/report.pb.h"
 
 namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMostViews = 30;
-// camera.json includes the camera's fixed pattern. Workers read JSON files up to the same size.
-constexpr std::size_t kLargestCamera = 16 << 20;
 
 class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
  public:
@@ -29,11 +27,9 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
   }
 
   [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
-      const Job& job, const std::filesystem::path& artifacts) const override {
+      const Job& job, const v1::JobReport& report) const override {
     v1::Calibration found;
-    HP_ASSIGN_OR_RETURN(const std::string text,
-                        read_text_file(artifacts / "camera.json", kLargestCamera));
-    HP_RETURN_IF_ERROR(read_camera(text, found));
+    HP_RETURN_IF_ERROR(take_camera(report.calibrate_camera(), found));
     found.set_display_name(job.definition.display_name);
     NewCalibration out;
     out.kind = CalibrationKind::kCamera;

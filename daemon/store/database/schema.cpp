@@ -35,7 +35,9 @@ CREATE TABLE jobs(
   create_ms INTEGER NOT NULL, start_ms INTEGER NOT NULL DEFAULT 0, end_ms INTEGER NOT NULL DEFAULT 0,
   update_ms INTEGER NOT NULL, keep_from_ms INTEGER NOT NULL DEFAULT 0,
   purge_ms INTEGER NOT NULL DEFAULT 0, version INTEGER NOT NULL DEFAULT 1,
-  error_code INTEGER, error_reason TEXT, error_message TEXT, exit_status INTEGER, signal INTEGER,
+  waits_for TEXT NOT NULL DEFAULT '',
+  error_code INTEGER, error_reason TEXT, error_message TEXT, error_field TEXT,
+  exit_status INTEGER, signal INTEGER,
   shared INTEGER NOT NULL DEFAULT 0, pinned INTEGER NOT NULL DEFAULT 0,
   attempts INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX jobs_by_state ON jobs(state);
@@ -49,7 +51,8 @@ CREATE TABLE events(
   seq INTEGER PRIMARY KEY AUTOINCREMENT,
   job INTEGER NOT NULL REFERENCES jobs(id) ON DELETE CASCADE, time_ms INTEGER NOT NULL,
   kind INTEGER NOT NULL, state INTEGER NOT NULL, fraction REAL NOT NULL, phase TEXT NOT NULL,
-  phase_fraction REAL NOT NULL, eta_ms INTEGER NOT NULL, message TEXT NOT NULL);
+  phase_fraction REAL NOT NULL, eta_ms INTEGER NOT NULL, message TEXT NOT NULL,
+  waits_for TEXT NOT NULL DEFAULT '');
 CREATE INDEX events_by_job ON events(job, seq);
 CREATE TABLE executions(
   job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, attempt INTEGER NOT NULL,

@@ -60,10 +60,10 @@ std::optional<float> gamma_of(const ImageSpec& spec) {
 
 Warning profile_ignored(const std::string& why, bool is_float, const std::string& name) {
   return {
-      "profile_ignored",
+      WarningCode::PROFILE_IGNORED,
       fmt::format("the colour profile of the image was ignored: {}. Its values were taken as {}",
                   why, is_float ? "linear light" : "sRGB"),
-      name};
+      {InFile{name}}};
 }
 
 /// Finds the meaning of the colour values: by a profile, else by a gamma.

@@ -58,12 +58,12 @@ class LayerLoader {
       return Projection::kUv;
     if (!layer.picture.empty()) {
       out_.warnings.push_back(
-          {"picture_projected",
+          {WarningCode::PICTURE_PROJECTED,
            fmt::format("{} has no texture coordinates, so the picture is projected along the dip, "
                        "as the film sees the object. Choose another projection (--project) if the "
                        "sides should look different",
                        model_.path.filename().string()),
-           layer.name});
+           {InLayer{layer.name}}});
     }
     return Projection::kDip;
   }
@@ -159,8 +159,8 @@ class LayerLoader {
   /// below.
   void add_unless_veiled(const Warnings& more) {
     for (const Warning& warning : more) {
-      const bool is_of_white =
-          warning.code == "alpha_over_white" || warning.code == "uvs_missing_in_part";
+      const bool is_of_white = warning.code == WarningCode::ALPHA_OVER_WHITE ||
+                               warning.code == WarningCode::UVS_MISSING_IN_PART;
       if (over_white_ || !is_of_white) out_.warnings.push_back(warning);
     }
   }

@@ -77,9 +77,9 @@ void warn_of_nothing(const LoadedLayer& layer, const mesh::Surface& surface, War
   }
   if (reason.empty()) return;
   warnings.push_back(
-      {"layer_covers_nothing",
+      {WarningCode::LAYER_COVERS_NOTHING,
        fmt::format("layer {} covers nothing: {}. Move it, or leave it out", layer.name, reason),
-       layer.name});
+       {InLayer{layer.name}}});
 }
 
 }  // namespace

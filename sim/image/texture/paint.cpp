@@ -160,8 +160,8 @@ class PaintLoader {
     return std::move(paint_);
   }
 
-  void warn(std::string code, std::string message, std::string where) {
-    paint_.warnings_.push_back({std::move(code), std::move(message), std::move(where)});
+  void warn(WarningCode code, std::string message, std::string file) {
+    paint_.warnings_.push_back({code, std::move(message), {InFile{std::move(file)}}});
   }
 
   bool has_uvs(std::size_t triangle) const {
@@ -189,7 +189,7 @@ class PaintLoader {
     }
     if (without > 0) {
       paint_.shows_white_ = true;
-      warn("uvs_missing_in_part",
+      warn(WarningCode::UVS_MISSING_IN_PART,
            fmt::format("{} triangles have no texture coordinates and stay white", without),
            model_.path.string());
     }
@@ -319,8 +319,8 @@ class PaintLoader {
               name, kMaxImageArea_px / 1'000'000));
     }
     if (read.had_alpha) {
-      warn("alpha_over_white", "the texture is transparent in places and was blended with white",
-           name);
+      warn(WarningCode::ALPHA_OVER_WHITE,
+           "the texture is transparent in places and was blended with white", name);
     }
     std::ranges::move(read.warnings, std::back_inserter(paint_.warnings_));
     pending_.push_back({std::move(read.image), wrap_u, wrap_v});
@@ -334,7 +334,7 @@ class PaintLoader {
       if (material != nullptr && has_texture(*material) && !has_uvs(t)) ++untextured;
     }
     if (untextured > 0) {
-      warn("uvs_missing_in_part",
+      warn(WarningCode::UVS_MISSING_IN_PART,
            fmt::format("{} triangles have a textured material but no texture coordinates; they "
                        "take its plain colour instead",
                        untextured),
@@ -364,7 +364,7 @@ class PaintLoader {
     if (!names.empty()) message += fmt::format("; their materials: {}", fmt::join(names, ", "));
     if (!model_.not_understood.empty())
       message += "; found, but not understood: " + model_.not_understood.front();
-    warn("colour_missing_in_part", message, model_.path.string());
+    warn(WarningCode::COLOUR_MISSING_IN_PART, message, model_.path.string());
   }
 
   [[nodiscard]] double area_of(const Eigen::Vector3i& triangle) const {

@@ -22,8 +22,8 @@ float full_scale(float largest) {
 
 void bring_to_unit(std::vector<Eigen::Vector3f>& colours, std::string_view what,
                    const std::filesystem::path& path, Warnings& warnings) {
-  const auto warn = [&](const char* code, std::string message) {
-    warnings.push_back({code, std::move(message), path.string()});
+  const auto warn = [&](WarningCode code, std::string message) {
+    warnings.push_back({code, std::move(message), {InFile{path.string()}}});
   };
   std::size_t broken = 0;
   float largest = 0;
@@ -44,16 +44,16 @@ void bring_to_unit(std::vector<Eigen::Vector3f>& colours, std::string_view what,
     clamped = clamped || colour != unit;
   }
   if (broken > 0)
-    warn("colours_not_numbers",
+    warn(WarningCode::COLOURS_NOT_NUMBERS,
          fmt::format("the colours of {} {} are not numbers: they are white", broken, what));
   if (scale > 1)
-    warn("colours_scaled",
+    warn(WarningCode::COLOURS_SCALED,
          fmt::format(
              "the colours of the {} go from 0 to {} instead of from 0 to 1: they were divided "
              "by {}",
              what, scale, scale));
   if (clamped)
-    warn("colours_clamped",
+    warn(WarningCode::COLOURS_CLAMPED,
          fmt::format("some colours of the {} are out of range and were limited to it", what));
 }
 

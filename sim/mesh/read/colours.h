@@ -12,7 +12,7 @@ namespace hydroprint::mesh {
 /// Brings sRGB-coded colours of a text file to [0, 1] in place. Formats mean 0 to 1, but files also
 /// have 0 to 255 or 0 to 65535: the largest value decides for all (up to 1.5 counts as 1). Values
 /// that are not numbers make a colour white. Each of these assumptions is a warning:
-/// `colours_scaled`, `colours_clamped`, `colours_not_numbers`.
+/// `COLOURS_SCALED`, `COLOURS_CLAMPED`, `COLOURS_NOT_NUMBERS`.
 /// @param what  "vertices" or "materials", for the warnings
 void bring_to_unit(std::vector<Eigen::Vector3f>& colours, std::string_view what,
                    const std::filesystem::path& path, Warnings& warnings);

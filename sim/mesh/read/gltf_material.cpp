@@ -149,7 +149,7 @@ class GltfColourReader {
       const Product glow = emission(*source);
       if (glow.factor) {
         colour = glow;
-        warn("emissive_colour_used", "has no colour but its emission, which was used");
+        warn(WarningCode::EMISSIVE_COLOUR_USED, "has no colour but its emission, which was used");
       }
     }
     if (colour.factor) set_factor(*colour.factor);
@@ -164,10 +164,10 @@ class GltfColourReader {
   }
 
  private:
-  void warn(std::string code, const std::string& message) {
-    out_.warnings.push_back({std::move(code),
+  void warn(WarningCode code, const std::string& message) {
+    out_.warnings.push_back({code,
                              fmt::format("material \"{}\" {}", out_.material.name, message),
-                             path_.string()});
+                             {InFile{path_.string()}}});
   }
 
   void set_alpha(const tinygltf::Material& source) {

@@ -34,13 +34,13 @@ class MtlParser {
     finish_material();
     scale_colours();
     if (commas_ > 0)
-      warn("decimal_commas", fmt::format("{} numbers have a decimal comma", commas_));
+      warn(WarningCode::DECIMAL_COMMAS, fmt::format("{} numbers have a decimal comma", commas_));
     return std::move(file_);
   }
 
  private:
-  void warn(std::string code, std::string message) {
-    file_.warnings.push_back({std::move(code), std::move(message), path_.string()});
+  void warn(WarningCode code, std::string message) {
+    file_.warnings.push_back({code, std::move(message), {InFile{path_.string()}}});
   }
 
   [[nodiscard]] tl::unexpected<Error> bad(std::string_view what) const {
@@ -113,7 +113,7 @@ class MtlParser {
     if (file_.materials.empty()) return;
     MtlMaterial& material = file_.materials.back();
     if (!diffuse_ && ambient_)
-      warn("ambient_texture_used",
+      warn(WarningCode::AMBIENT_TEXTURE_USED,
            fmt::format("material \"{}\" has no map_Kd: its map_Ka is used", material.name));
     if (const auto& map = diffuse_ ? diffuse_ : ambient_) {
       material.texture = map->file;
@@ -121,7 +121,7 @@ class MtlParser {
       material.scale = map->scale.head<2>();
       material.offset = map->offset.head<2>();
       if (!map->ignored.empty())
-        warn("texture_options_ignored",
+        warn(WarningCode::TEXTURE_OPTIONS_IGNORED,
              fmt::format("material \"{}\": the option {} of its texture is not supported and was "
                          "left out",
                          material.name, map->ignored));

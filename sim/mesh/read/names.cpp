@@ -74,11 +74,11 @@ std::optional<fs::path> similar_file(const fs::path& missing, const fs::path& fo
 }
 
 Warning similar_name(const fs::path& missing, const fs::path& found, const fs::path& model) {
-  return {"similar_name",
+  return {WarningCode::SIMILAR_NAME,
           fmt::format("the file {} is missing; {} was used instead, because only upper and lower "
                       "case or the Unicode form of the names differ",
                       one_line(missing.filename().string()), one_line(found.filename().string())),
-          model.string()};
+          {InFile{model.string()}}};
 }
 
 }  // namespace hydroprint::mesh

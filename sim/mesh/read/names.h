@@ -25,7 +25,7 @@ namespace hydroprint::mesh {
 [[nodiscard]] std::optional<std::filesystem::path> similar_file(
     const std::filesystem::path& missing, const std::filesystem::path& folder);
 
-/// Returns the warning `similar_name`: `found` was taken for `missing`, which does not exist.
+/// Returns the warning `SIMILAR_NAME`: `found` was taken for `missing`, which does not exist.
 [[nodiscard]] Warning similar_name(const std::filesystem::path& missing,
                                    const std::filesystem::path& found,
                                    const std::filesystem::path& model);

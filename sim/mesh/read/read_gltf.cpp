@@ -55,22 +55,23 @@ class GltfImporter {
     if (with_uvs_ == 0) model_.corner_uvs.clear();
     if (with_colours_ == 0) model_.vertex_colours.clear();
     if (with_uvs_ > 0 && with_uvs_ < primitives_)
-      warn("faces_without_uv",
+      warn(WarningCode::FACES_WITHOUT_UV,
            "some parts have no texture coordinates: they take the colour of the texture's "
            "lower left corner");
     if (skinned_ > 0)
-      warn("skin_ignored",
+      warn(WarningCode::SKIN_IGNORED,
            fmt::format("{} parts are deformed by a skeleton, which is not supported: they are used "
                        "in their modelled shape, at their node's position",
                        skinned_));
     if (morphing_ > 0)
-      warn("morph_ignored",
+      warn(WarningCode::MORPH_IGNORED,
            fmt::format(
                "{} parts have morph targets, which are not supported: their base shape is used",
                morphing_));
     warn_of_colours();
     if (skipped_ > 0)
-      warn("not_a_surface", fmt::format("{} sets of points or lines were left out", skipped_));
+      warn(WarningCode::NOT_A_SURFACE,
+           fmt::format("{} sets of points or lines were left out", skipped_));
     if (model_.materials.empty()) model_.triangle_material.clear();
     return std::move(model_);
   }
@@ -80,20 +81,20 @@ class GltfImporter {
     return damaged(model_.path, place, what);
   }
 
-  void warn(std::string code, std::string message) {
-    model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
+  void warn(WarningCode code, std::string message) {
+    model_.warnings.push_back({code, std::move(message), {InFile{model_.path.string()}}});
   }
 
   void warn_of_colours() {
     if (blended_colours_ > 0)
       warn(
-          "alpha_over_white",
+          WarningCode::ALPHA_OVER_WHITE,
           fmt::format("{} vertices are transparent and were blended with white", blended_colours_));
     if (ignored_alphas_ > 0)
-      warn("vertex_alpha_ignored",
+      warn(WarningCode::VERTEX_ALPHA_IGNORED,
            fmt::format("the alpha of {} vertices' colours was ignored", ignored_alphas_));
     if (broken_colours_ > 0)
-      warn("colours_not_numbers",
+      warn(WarningCode::COLOURS_NOT_NUMBERS,
            fmt::format("the colours of {} vertices are not numbers: they are white",
                        broken_colours_));
   }

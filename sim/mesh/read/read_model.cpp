@@ -76,11 +76,11 @@ Status check_place(Model& model) {
                      "lies more than 10,000 km from the origin; move the model to the origin");
   if (far_centre_mm(model.vertices).isZero()) return {};
   model.warnings.push_back(
-      {"far_from_origin",
+      {WarningCode::FAR_FROM_ORIGIN,
        fmt::format("the model lies {} m from the origin, around ({:.3f}, {:.3f}, {:.3f}) mm, as "
                    "scans in map coordinates do; poses refer to the origin of the file",
                    three_digits(centre.norm() / 1000), centre.x(), centre.y(), centre.z()),
-       model.path.string()});
+       {InFile{model.path.string()}}});
   return {};
 }
 
@@ -153,9 +153,9 @@ Status drop_degenerate(Model& model) {
   keep(model.corner_uvs, kept);
   keep(model.triangle_material, kept);
   keep(model.triangle_colours, kept);
-  model.warnings.push_back({"zero_area_faces",
+  model.warnings.push_back({WarningCode::ZERO_AREA_FACES,
                             fmt::format("{} faces without area were dropped", dropped),
-                            model.path.string()});
+                            {InFile{model.path.string()}}});
   return {};
 }
 

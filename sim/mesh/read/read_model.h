@@ -15,7 +15,7 @@ inline constexpr std::size_t kMaxFaces = 20'000'000;
 /// split into triangles. Vertices keep the file's order (STL: three per facet; glTF: in the order
 /// of the scene's nodes, with node transforms applied). Textures are named in the materials but not
 /// opened; a name that differs from the only such file just in case or Unicode form means it
-/// (warning `similar_name`). Faces without area are dropped with the warning `zero_area_faces`. A
+/// (warning `SIMILAR_NAME`). Faces without area are dropped with the warning `ZERO_AREA_FACES`. A
 /// missing material file or material is a warning. Errors are one line with file, place and remedy.
 /// kNotFound: missing file. kOutOfRange: scale out of range. kInvalidArgument: unknown formats,
 /// truncated files, headers that announce more than the file contains, coordinates that are not

@@ -100,8 +100,8 @@ class ObjImporter {
  private:
   static ObjImporter& cast(void* self) { return *static_cast<ObjImporter*>(self); }
 
-  void warn(std::string code, std::string message) {
-    model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
+  void warn(WarningCode code, std::string message) {
+    model_.warnings.push_back({code, std::move(message), {InFile{model_.path.string()}}});
   }
 
   Status read_library(const std::string& line) {
@@ -168,7 +168,7 @@ class ObjImporter {
     if (similar == library_.names_by_key.end()) return nullptr;
     const std::set<std::string> names(similar->second.begin(), similar->second.end());
     if (names.size() != 1) return nullptr;
-    warn("similar_name",
+    warn(WarningCode::SIMILAR_NAME,
          fmt::format("the material \"{}\" was taken for \"{}\", which is not defined",
                      *names.begin(), name));
     return &library_.by_name.at(*names.begin());
@@ -243,9 +243,10 @@ class ObjImporter {
     if (without_uvs_ == model_.triangles.size())
       model_.corner_uvs.clear();
     else if (without_uvs_ > 0)
-      warn("faces_without_uv", fmt::format("{} faces have no texture coordinates: they take the "
-                                           "colour of the texture's lower left corner",
-                                           without_uvs_));
+      warn(WarningCode::FACES_WITHOUT_UV,
+           fmt::format("{} faces have no texture coordinates: they take the "
+                       "colour of the texture's lower left corner",
+                       without_uvs_));
     if (model_.materials.empty())
       model_.triangle_material.clear();
     else
@@ -257,7 +258,7 @@ class ObjImporter {
   void take_vertex_colours() {
     bring_to_unit(facts_.vertex_colours, "vertices", model_.path, model_.warnings);
     if (facts_.coloured_vertices > 0 && facts_.coloured_vertices < facts_.vertices)
-      warn("vertex_colours_in_part",
+      warn(WarningCode::VERTEX_COLOURS_IN_PART,
            fmt::format("only {} of {} vertices have colours: the others are white",
                        facts_.coloured_vertices, facts_.vertices));
     model_.vertex_colours = std::move(facts_.vertex_colours);
@@ -269,18 +270,18 @@ class ObjImporter {
   void warn_of_materials() {
     if (missing_.empty() || !model_.vertex_colours.empty()) {
       if (!missing_files_.empty())
-        warn("material_file_unused",
+        warn(WarningCode::MATERIAL_FILE_UNUSED,
              fmt::format("the material file {} was not found; no face needs it",
                          missing_files_.front()));
     } else if (!missing_files_.empty()) {
       for (const std::string& name : missing_files_)
         model_.material_files.push_back({model_.path.parent_path() / name, true});
       warn(
-          "material_file_missing",
+          WarningCode::MATERIAL_FILE_MISSING,
           fmt::format("the material file {} was not found, so its colours and textures are missing",
                       missing_files_.front()));
     } else {
-      warn("material_missing",
+      warn(WarningCode::MATERIAL_MISSING,
            "material \"" + *missing_.begin() +
                "\" is not defined in the material file, so its faces have no colour");
     }

@@ -130,8 +130,8 @@ class PlyReader {
     return damaged(model_.path, fmt::format("{} {}", layout.element->name, item), what);
   }
 
-  void warn(std::string code, std::string message) {
-    model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
+  void warn(WarningCode code, std::string message) {
+    model_.warnings.push_back({code, std::move(message), {InFile{model_.path.string()}}});
   }
 
   /// One material for each texture, and a last one without for faces that name none.
@@ -271,7 +271,7 @@ class PlyReader {
     bring_to_unit(model_.vertex_colours, "vertices", model_.path, model_.warnings);
     bring_to_unit(model_.triangle_colours, "faces", model_.path, model_.warnings);
     if (without_uvs_ > 0)
-      warn("faces_without_uv",
+      warn(WarningCode::FACES_WITHOUT_UV,
            fmt::format("{} faces have no texture coordinates: they have no texture", without_uvs_));
   }
 

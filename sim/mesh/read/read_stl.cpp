@@ -39,14 +39,14 @@ void add_facet(Model& model) {
 }
 
 void take_colours(StlColours colours, Model& model) {
-  const std::string where = model.path.string();
   if (colours.odd_attributes)
     model.not_understood.emplace_back(
         "attribute bytes of the facets, which are colours neither of Magics nor of VisCAM");
   if (colours.uncoloured > 0)
     model.warnings.push_back(
-        {"facets_without_colour",
-         fmt::format("{} facets have no colour and stay white", colours.uncoloured), where});
+        {WarningCode::FACETS_WITHOUT_COLOUR,
+         fmt::format("{} facets have no colour and stay white", colours.uncoloured),
+         {InFile{model.path.string()}}});
   for (const auto& colour : colours.facets)
     model.vertex_colours.insert(model.vertex_colours.end(), 3, colour);
 }

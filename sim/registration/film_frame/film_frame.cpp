@@ -162,8 +162,9 @@ Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& 
   out.markers = report(found, matching, layout, out.X_CF(), cloud);
   for (const MarkerReport& m : out.markers)
     if (!m.used)
-      out.warnings.push_back(
-          {"marker_left_out", "marker \"" + m.name + "\": " + m.why_not, m.name});
+      out.warnings.push_back({WarningCode::MARKER_LEFT_OUT,
+                              "marker \"" + m.name + "\": " + m.why_not,
+                              {AtMarker{m.name}}});
   return out;
 }
 

@@ -22,7 +22,7 @@ struct MarkerReport {
 struct FilmFrame {
   PoseFit fit;                        ///< pose of F in the camera frame
   std::vector<MarkerReport> markers;  ///< reports in the layout's order
-  Warnings warnings;                  ///< `marker_left_out` for each unused marker
+  Warnings warnings;                  ///< `MARKER_LEFT_OUT` for each unused marker
 
   [[nodiscard]] const Pose& X_CF() const { return fit.X_CB; }
   /// Returns the derivative of `motion` times the frame's twist with respect to the camera's

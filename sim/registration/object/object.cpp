@@ -236,17 +236,17 @@ tl::unexpected<Error> too_few(std::size_t points, const Surroundings& around) {
 
 void warn(ObjectPose& out) {
   if (out.sight.out_of_view > kOutOfView)
-    out.warnings.push_back({"object_partly_out_of_view",
+    out.warnings.push_back({WarningCode::OBJECT_PARTLY_OUT_OF_VIEW,
                             percent(out.sight.out_of_view) +
                                 " of the surface that faces the camera is out of its view. "
                                 "Move the camera",
-                            "object"});
+                            {OfItem{"object"}}});
   if (out.sight.before + out.sight.without_depth > kHidden)
-    out.warnings.push_back({"object_partly_hidden",
+    out.warnings.push_back({WarningCode::OBJECT_PARTLY_HIDDEN,
                             percent(out.sight.before + out.sight.without_depth) +
                                 " of the surface that faces the camera is hidden. Move the camera, "
                                 "or remove what hides the object",
-                            "object"});
+                            {OfItem{"object"}}});
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct ObjectPose {
   double misfit_mm = 0;  ///< rms, over blocks of 16 x 16 pixels, of the mean distance from the mesh
   double on_share = 0;   ///< fraction of the scan's points within 4 mm of the mesh
   Sight sight;
-  Warnings warnings;  ///< `object_partly_out_of_view`, `object_partly_hidden`
+  Warnings warnings;  ///< `OBJECT_PARTLY_OUT_OF_VIEW`, `OBJECT_PARTLY_HIDDEN`
 };
 
 /// Input of find_object() besides the scan.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/base/context.h"
@@ -30,29 +31,36 @@ class ArtifactTask : public Task {
   /// Returns the files that must be readable before the computation starts. report.json lists them.
   [[nodiscard]] virtual std::vector<InputPath> input_files() const = 0;
 
-  /// Runs the computation, then creates `folder` and writes the artifacts into it. Adds warnings,
-  /// artifacts and further inputs to the report.
-  [[nodiscard]] virtual Status compute(OutFolder& folder, Report& report,
+  /// Runs the computation, then creates `folder` and writes the artifacts into it. Sets the verb's
+  /// findings in report(). Adds warnings, artifacts and further inputs to `run`.
+  [[nodiscard]] virtual Status compute(OutFolder& folder, v1::RunFacts& run,
                                        const Context& context) = 0;
 
-  /// Returns the verb's own keys of report.json, in order. Called after compute().
-  [[nodiscard]] virtual Json findings(const Report& /*report*/) const { return Json::object(); }
-  /// Returns the content of report.json. Called last; by default report_json() of findings().
-  [[nodiscard]] virtual Result<std::string> report_text(const Report& report) const;
-  /// Returns the figures of the summary for `--json`. Called after compute().
-  [[nodiscard]] virtual Json figures() const = 0;
-  /// Returns the summary for `--json`; by default summary_json() of figures().
-  [[nodiscard]] virtual Result<std::string> json_summary(const Report& report,
-                                                         const std::filesystem::path& dir) const;
   /// Returns the summary as text; each line ends with a newline. Called after compute().
-  [[nodiscard]] virtual std::string summary(const Report& report,
-                                            const std::filesystem::path& dir) const = 0;
+  [[nodiscard]] virtual std::string summary(const std::filesystem::path& dir) const = 0;
+
+  /// Returns the message of report.json.
+  [[nodiscard]] virtual google::protobuf::Message& report() = 0;
+  /// Returns what all reports have in common, which is usually a part of report().
+  [[nodiscard]] virtual v1::RunFacts& run_facts() = 0;
 
  private:
-  [[nodiscard]] Status write_all(OutFolder& folder, Report& report, Progress& progress,
-                                 const Context& context);
+  [[nodiscard]] Status write_all(OutFolder& folder, Progress& progress, const Context& context);
+  [[nodiscard]] Result<std::string> json_summary(const std::filesystem::path& dir);
 
   std::string verb_;
+};
+
+/// A task whose report.json is a message with the field `run`.
+template <class Message>
+class ReportTask : public ArtifactTask {
+ protected:
+  using ArtifactTask::ArtifactTask;
+
+  [[nodiscard]] google::protobuf::Message& report() final { return report_; }
+  [[nodiscard]] v1::RunFacts& run_facts() final { return *report_.mutable_run(); }
+
+  Message report_;
 };
 
 }  // namespace hydroprint::worker

@@ -1,5 +1,6 @@
 #include "sim/worker/common/dip.h"
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/ink/ink_of.h"
@@ -20,10 +21,10 @@ Result<pipeline::DipOptions> read_dip(const DipOptions& options) {
 }
 
 Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
-                                            const std::filesystem::path& ink_image, Report& report,
-                                            const Context& context) {
+                                            const std::filesystem::path& ink_image,
+                                            v1::RunFacts& run, const Context& context) {
   HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_dip(options));
-  HP_RETURN_IF_ERROR(add_inputs(report, {{"ink_icc_profile", dip.profile.ink_icc_profile}}));
+  HP_RETURN_IF_ERROR(add_inputs(run, {{"ink_icc_profile", dip.profile.ink_icc_profile}}));
   if (!ink_image.empty()) {
     HP_ASSIGN_OR_RETURN(dip.ink, ink::read_ink_image(ink_image, dip.outline,
                                                      {dip.profile.ink_icc_profile}, context));
@@ -31,37 +32,30 @@ Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
   return dip;
 }
 
-Json dip_parameters_json(const DipOptions& options, const pipeline::DipOptions& dip,
-                         const Pose& X_FO, int threads) {
-  Json out = {{"scale", options.object.scale},
-              {"pose", pose_json(X_FO)},
-              {"film", film_json(dip.outline)},
-              {"profile", profile_json(dip.profile)},
-              {"depth_mm", "full"},
-              {"dip_speed_mm_per_s", options.dip_speed_mm_per_s},
-              {"threads", threads}};
-  if (options.depth_mm) out["depth_mm"] = *options.depth_mm;
-  return out;
+void set_dip(const DipOptions& options, const pipeline::DipOptions& dip, const Pose& X_FO,
+             v1::DipFacts& out) {
+  out.set_scale(options.object.scale);
+  set_pose(X_FO, *out.mutable_pose());
+  set_film(dip.outline, *out.mutable_film());
+  set_profile(dip.profile, *out.mutable_profile());
+  if (options.depth_mm) out.set_depth_mm(*options.depth_mm);
+  out.set_dip_speed_mm_per_s(options.dip_speed_mm_per_s);
 }
 
-Json profile_json(const film::Profile& p) {
-  return {{"thickness_mm", p.thickness_mm},
-          {"ink_ratio_mm", p.ink_ratio_mm},
-          {"ink_icc_profile", p.ink_icc_profile.string()},
-          {"swelling", pair_of(p.swelling)},
-          {"drag_length_mm", p.drag_length_mm},
-          {"tear_stretch", p.tear_stretch},
-          {"wrinkle_stretch", p.wrinkle_stretch},
-          {"young_modulus_mpa", p.young_modulus_mpa},
-          {"density_kg_per_m3", p.density_kg_per_m3},
-          {"poisson_ratio", p.poisson_ratio},
-          {"activator_ml_per_m2", p.activator_ml_per_m2},
-          {"soak_s", p.soak_s},
-          {"activator_wait_s", p.activator_wait_s}};
-}
-
-Json stretch_json(const pipeline::DipFigures& figures) {
-  return {{"p50", figures.stretch_p50}, {"p95", figures.stretch_p95}, {"max", figures.stretch_max}};
+void set_profile(const film::Profile& profile, v1::ProfileFacts& out) {
+  out.set_thickness_mm(profile.thickness_mm);
+  out.set_ink_ratio_mm(profile.ink_ratio_mm);
+  out.set_ink_icc_profile(profile.ink_icc_profile.string());
+  add_all(profile.swelling, out.mutable_swelling());
+  out.set_drag_length_mm(profile.drag_length_mm);
+  out.set_tear_stretch(profile.tear_stretch);
+  out.set_wrinkle_stretch(profile.wrinkle_stretch);
+  out.set_young_modulus_mpa(profile.young_modulus_mpa);
+  out.set_density_kg_per_m3(profile.density_kg_per_m3);
+  out.set_poisson_ratio(profile.poisson_ratio);
+  out.set_activator_ml_per_m2(profile.activator_ml_per_m2);
+  out.set_soak_s(profile.soak_s);
+  out.set_activator_wait_s(profile.activator_wait_s);
 }
 
 }  // namespace hydroprint::worker

@@ -8,6 +8,11 @@
 #include "sim/worker/common/object.h"
 #include "sim/worker/common/report.h"
 
+namespace hydroprint::v1 {
+class DipFacts;
+class ProfileFacts;
+}  // namespace hydroprint::v1
+
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
@@ -33,20 +38,18 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 [[nodiscard]] Result<pipeline::DipOptions> read_dip(const DipOptions& options);
 
 /// Same as read_dip(). Also reads the ink on the film if `ink_image` is not empty, and adds the ICC
-/// profile that the film profile names to the report's inputs.
+/// profile that the film profile names to the inputs of the run.
 [[nodiscard]] Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
                                                           const std::filesystem::path& ink_image,
-                                                          Report& report, const Context& context);
+                                                          v1::RunFacts& run,
+                                                          const Context& context);
 
-/// Returns the parameters in report.json that all verbs with a dip share.
+/// Sets the parameters in report.json that all verbs with a dip share.
 /// @param dip   the result of read_dip() or read_inked_dip()
 /// @param X_FO  the pose of the computed dip
-[[nodiscard]] Json dip_parameters_json(const DipOptions& options, const pipeline::DipOptions& dip,
-                                       const Pose& X_FO, int threads);
+void set_dip(const DipOptions& options, const pipeline::DipOptions& dip, const Pose& X_FO,
+             v1::DipFacts& out);
 
-[[nodiscard]] Json profile_json(const film::Profile& profile);
-
-/// Returns {p50, p95, max} of the stretch.
-[[nodiscard]] Json stretch_json(const pipeline::DipFigures& figures);
+void set_profile(const film::Profile& profile, v1::ProfileFacts& out);
 
 }  // namespace hydroprint::worker

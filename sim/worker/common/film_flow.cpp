@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string_view>
+#include <cstdint>
 
-#include "hydroprint/v1/spec.pb.h"
+#include "hydroprint/v1/report.pb.h"
 #include "sim/base/number_text.h"
 #include "sim/image/film/film_image.h"
 #include "sim/worker/common/fields.h"
@@ -13,37 +13,7 @@
 namespace hydroprint::worker {
 namespace {
 
-/// Returns null if no error is stated.
-Json error_json(const std::optional<pipeline::MapError>& error) {
-  if (!error) return nullptr;
-  const auto bound = [](double error_mm) {
-    return std::isfinite(error_mm) ? Json(error_mm) : Json(nullptr);
-  };
-  return {{"p50_mm", bound(error->p50_mm)},
-          {"p95_mm", bound(error->p95_mm)},
-          {"above_pixel_share", error->above_pixel_share},
-          {"no_bound_share", error->no_bound_share}};
-}
-
-Json sections_json(const std::vector<waterline::SectionArea>& sections) {
-  Json out = Json::array();
-  for (const waterline::SectionArea& section : sections) {
-    out.push_back({{"depth_mm", section.depth_mm}, {"area_mm2", section.area_mm2}});
-  }
-  return out;
-}
-
-Json ink_passes_json(const std::vector<pipeline::InkPass>& passes) {
-  Json out = Json::array();
-  for (const pipeline::InkPass& pass : passes) {
-    out.push_back({{"moved_rms_mm", pass.moved_rms_mm},
-                   {"moved_p999_mm", pass.moved_most_mm},
-                   {"moved_max_mm", pass.moved_max_mm}});
-  }
-  return out;
-}
-
-std::string_view rule_name(mesh::SideRule rule) {
+const char* rule_name(mesh::SideRule rule) {
   switch (rule) {
     case mesh::SideRule::kVolume:
       return "volume";
@@ -57,16 +27,38 @@ std::string_view rule_name(mesh::SideRule rule) {
   return "undecided";
 }
 
-Json shells_json(const std::vector<mesh::Shell>& shells) {
-  Json out = Json::array();
+void add_shells(const std::vector<mesh::Shell>& shells, v1::MeshFacts& out) {
   for (const mesh::Shell& shell : shells) {
-    out.push_back({{"triangles", shell.triangles},
-                   {"area_mm2", shell.area_mm2},
-                   {"closed", shell.closed},
-                   {"rule", rule_name(shell.rule)},
-                   {"turned_over", shell.turned_over}});
+    v1::MeshFacts::Shell& added = *out.add_shells();
+    added.set_triangles(static_cast<std::int32_t>(shell.triangles));
+    added.set_area_mm2(shell.area_mm2);
+    added.set_closed(shell.closed);
+    added.set_rule(rule_name(shell.rule));
+    added.set_turned_over(shell.turned_over);
   }
-  return out;
+}
+
+void add_sections(const std::vector<waterline::SectionArea>& sections, v1::FlowFacts& out) {
+  for (const waterline::SectionArea& section : sections) {
+    v1::FlowFacts::Section& added = *out.add_sections();
+    added.set_depth_mm(section.depth_mm);
+    added.set_area_mm2(section.area_mm2);
+  }
+}
+
+void add_ink_passes(const std::vector<pipeline::InkPass>& passes, v1::FlowFacts& out) {
+  for (const pipeline::InkPass& pass : passes) {
+    v1::FlowFacts::InkPass& added = *out.add_ink_passes();
+    added.set_moved_rms_mm(pass.moved_rms_mm);
+    added.set_moved_p999_mm(pass.moved_most_mm);
+    added.set_moved_max_mm(pass.moved_max_mm);
+  }
+}
+
+/// Returns the quantiles of the stretch; nullopt if there is no surface to take it from.
+std::optional<pipeline::StretchQuantiles> stretch_of(const pipeline::DipFigures& figures) {
+  if (figures.stretch_max <= 0) return std::nullopt;
+  return pipeline::StretchQuantiles{figures.stretch_p50, figures.stretch_p95, figures.stretch_max};
 }
 
 void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
@@ -136,10 +128,10 @@ Status check_film_image(const film::Outline& outline, double dpi) {
           grid.columns, grid.rows, most_dpi));
 }
 
-Status add_material_textures(const mesh::Model& model, Report& report) {
+Status add_material_textures(const mesh::Model& model, v1::RunFacts& run) {
   for (const mesh::Material& material : model.materials) {
     if (!material.texture_bytes.empty()) continue;
-    HP_RETURN_IF_ERROR(add_inputs(report, {{"material_texture", material.texture}}));
+    HP_RETURN_IF_ERROR(add_inputs(run, {{"material_texture", material.texture}}));
   }
   return {};
 }
@@ -171,79 +163,67 @@ std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips) {
   return out;
 }
 
-Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
+Result<pipeline::DipOptions> read_flow(const FlowOptions& options, v1::RunFacts& run,
                                        const Context& context) {
   HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip,
-                      read_inked_dip(options.dip, options.ink_image, report, context));
+                      read_inked_dip(options.dip, options.ink_image, run, context));
   dip.film_model = options.film_model;
   dip.inertia = options.inertia;
   dip.tolerance_mm = options.tolerance_mm;
   return dip;
 }
 
-DipFindings::DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
-                         const pipeline::Dip& result)
-    : X_FO_(result.X_FO),
-      mesh_{model.vertices.size(), model.triangles.size()},
-      surface_{result.surface.points.size(), result.surface.triangles.size()},
-      closed_(result.surface.closed),
-      shells_(result.surface.shells),
-      figures_(result.figures) {
-  dip_.outline = dip.outline;
-  dip_.profile = dip.profile;
+void set_parameters(const FlowOptions& options, const pipeline::DipOptions& dip, const Pose& X_FO,
+                    v1::FlowParameters& out) {
+  set_dip(options.dip, dip, X_FO, *out.mutable_dip());
+  out.set_dpi(options.dpi);
+  out.set_model(options.is_sheet() ? v1::MODEL_SHEET : v1::MODEL_STOKES);
+  out.set_inertia(options.inertia);
+  if (options.tolerance_mm) out.set_tolerance_mm(*options.tolerance_mm);
+  out.set_ink_passes(options.is_sheet() ? options.passes() : 0);
+  out.set_artifacts(options.map_only ? v1::ARTIFACT_SET_MAP : v1::ARTIFACT_SET_ALL);
 }
 
-Json DipFindings::parameters(const FlowOptions& options, std::array<int, 2> film_image_px,
-                             int threads) const {
-  Json out = dip_parameters_json(options.dip, dip_, X_FO_, threads);
-  out.update({{"dpi", options.dpi},
-              {"film_image_px", film_image_px},
-              {"model", options.is_sheet() ? "sheet" : "stokes"},
-              {"inertia", options.inertia},
-              {"tolerance_mm", options.tolerance_mm ? Json(*options.tolerance_mm) : Json(nullptr)},
-              {"ink_passes", options.is_sheet() ? options.passes() : 0},
-              {"artifacts", options.map_only ? "map" : "all"}});
-  return out;
+void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch, v1::StretchFacts& out) {
+  if (!stretch) return;
+  out.set_p50(stretch->p50);
+  out.set_p95(stretch->p95);
+  out.set_max(stretch->max);
 }
 
-Json DipFindings::report(const FlowOptions& options, std::array<int, 2> film_image_px,
-                         int threads) const {
-  const pipeline::DipFigures& f = figures_;
-  return {{"parameters", parameters(options, film_image_px, threads)},
-          {"mesh",
-           {{"vertices", mesh_.vertices},
-            {"triangles", mesh_.triangles},
-            {"surface_points", surface_.vertices},
-            {"surface_triangles", surface_.triangles},
-            {"closed", closed_},
-            {"shells", shells_json(shells_)},
-            {"film_vertices_max", f.film_vertices_max},
-            {"film_triangles_max", f.film_triangles_max}}},
-          {"steps", f.steps},
-          {"sections", sections_json(f.sections)},
-          {"waterlines_passed_over", f.passed_over_mm.size()},
-          {"depth_mm", f.depth_mm},
-          {"stopped_at_film_edge", f.stopped_at_edge},
-          {"coverage", f.coverage},
-          {"theta_clamped_share", f.clamped_share},
-          {"wrinkled_share", f.wrinkled_share},
-          {"torn_share", f.torn_share},
-          {"stretch", stretch_json(f)},
-          {"error", error_json(f.error)},
-          {"sheet_unsettled_mm", f.unsettled_mm},
-          {"ink_passes", ink_passes_json(f.ink_passes)}};
+void set_error(const pipeline::MapError& error, v1::MapError& out) {
+  out.set_p50_mm(error.p50_mm);
+  out.set_p95_mm(error.p95_mm);
+  out.set_above_pixel_share(error.above_pixel_share);
+  out.set_no_bound_share(error.no_bound_share);
 }
 
-Json DipFindings::figures() const {
-  return {{"coverage", figures_.coverage},
-          {"depth_mm", figures_.depth_mm},
-          {"stretch", stretch_json(figures_)}};
+void set_flow(const pipeline::Dip& dip, v1::MeshFacts& mesh, v1::FlowFacts& out) {
+  const pipeline::DipFigures& figures = dip.figures;
+  set_surface(dip.surface, mesh);
+  add_shells(dip.surface.shells, mesh);
+  mesh.set_film_vertices_max(figures.film_vertices_max);
+  mesh.set_film_triangles_max(figures.film_triangles_max);
+  out.set_steps(figures.steps);
+  add_sections(figures.sections, out);
+  out.set_waterlines_passed_over(static_cast<std::int32_t>(figures.passed_over_mm.size()));
+  out.set_depth_mm(figures.depth_mm);
+  out.set_stopped_at_film_edge(figures.stopped_at_edge);
+  out.set_coverage(figures.coverage);
+  out.set_theta_clamped_share(figures.clamped_share);
+  out.set_wrinkled_share(figures.wrinkled_share);
+  out.set_torn_share(figures.torn_share);
+  set_stretch(stretch_of(figures), *out.mutable_stretch());
+  if (figures.error) set_error(*figures.error, *out.mutable_error());
+  out.set_sheet_unsettled_mm(figures.unsettled_mm);
+  add_ink_passes(figures.ink_passes, out);
 }
 
-std::string DipFindings::summary(const Report& report, const std::filesystem::path& dir) const {
+std::string flow_summary(const std::filesystem::path& dir, const v1::RunFacts& run,
+                         const v1::FlowFacts& flow) {
   return fmt::format("{}film reaches {} of the surface; maximum stretch {}; {:.1f} s\n",
-                     artifacts_line(dir, report), percent(figures_.coverage),
-                     three_digits(figures_.stretch_max), report.total_s);
+                     artifacts_line(dir, run), percent(flow.coverage()),
+                     three_digits(flow.stretch().max()), run.total_seconds());
 }
 
 }  // namespace hydroprint::worker

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,8 +7,8 @@
 
 #include "sim/base/process/progress.h"
 #include "sim/mesh/model.h"
-#include "sim/mesh/shell.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/plan.h"
 #include "sim/worker/common/dip.h"
 #include "sim/worker/common/report.h"
 #include "sim/worker/common/report_values.h"
@@ -17,6 +16,10 @@
 namespace hydroprint::v1 {
 enum Model : int;
 enum ArtifactSet : int;
+class FlowFacts;
+class FlowParameters;
+class MapError;
+class StretchFacts;
 }  // namespace hydroprint::v1
 
 // Options and results that simulate and predict share. For inclusion in .cpp files only.
@@ -58,9 +61,9 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
 /// Checks the size of the film image before the dip is computed. Fails with fail_field().
 [[nodiscard]] Status check_film_image(const film::Outline& outline, double dpi);
 
-/// Adds the texture files of the model's materials to the report's inputs. Textures embedded in the
-/// model's file are skipped.
-[[nodiscard]] Status add_material_textures(const mesh::Model& model, Report& report);
+/// Adds the texture files of the model's materials to the inputs of the run. Textures embedded in
+/// the model's file are skipped.
+[[nodiscard]] Status add_material_textures(const mesh::Model& model, v1::RunFacts& run);
 
 /// Stages of a run. The weights are rough percentages of the time, measured with dips of a globe
 /// and of a cow with the default options. With inertia the sheet takes three times as long.
@@ -71,34 +74,30 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
 [[nodiscard]] std::vector<Stage> plan_stages(const FlowOptions& options, std::size_t dips);
 
 /// Reads the files named in the options.
-[[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
+[[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, v1::RunFacts& run,
                                                      const Context& context);
 
-/// Formats the dip's figures for report.json and for the summaries.
-class DipFindings {
- public:
-  DipFindings() = default;
-  /// @param dip     options of the dip
-  /// @param result  the computed dip
-  DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
-              const pipeline::Dip& result);
+/// Sets the options of a computed dip, without the size of its film image.
+/// @param X_FO  the pose of the computed dip
+void set_parameters(const FlowOptions& options, const pipeline::DipOptions& dip, const Pose& X_FO,
+                    v1::FlowParameters& out);
+void set_stretch(const std::optional<pipeline::StretchQuantiles>& stretch, v1::StretchFacts& out);
+void set_error(const pipeline::MapError& error, v1::MapError& out);
+/// Sets the figures of a computed dip, and the sizes of its meshes.
+void set_flow(const pipeline::Dip& dip, v1::MeshFacts& mesh, v1::FlowFacts& out);
 
-  /// @param film_image_px  width and height; zeros: no film image
-  [[nodiscard]] Json report(const FlowOptions& options, std::array<int, 2> film_image_px,
-                            int threads) const;
-  [[nodiscard]] Json figures() const;
-  [[nodiscard]] std::string summary(const Report& report, const std::filesystem::path& dir) const;
+/// Sets the findings in the report of simulate or predict.
+/// @param dip  options of the computed dip
+template <class Message>
+void set_findings(const FlowOptions& options, const pipeline::DipOptions& dip,
+                  const mesh::Model& model, const pipeline::Dip& result, Message& out) {
+  set_parameters(options, dip, result.X_FO, *out.mutable_parameters());
+  set_mesh(model, *out.mutable_mesh());
+  set_flow(result, *out.mutable_mesh(), *out.mutable_flow());
+}
 
- private:
-  [[nodiscard]] Json parameters(const FlowOptions& options, std::array<int, 2> film_image_px,
-                                int threads) const;
-
-  pipeline::DipOptions dip_;  ///< only the film and its profile
-  Pose X_FO_ = Pose::Identity();
-  MeshSize mesh_, surface_;
-  bool closed_ = false;
-  std::vector<mesh::Shell> shells_;
-  pipeline::DipFigures figures_;
-};
+/// Returns the summary of a computed dip.
+[[nodiscard]] std::string flow_summary(const std::filesystem::path& dir, const v1::RunFacts& run,
+                                       const v1::FlowFacts& flow);
 
 }  // namespace hydroprint::worker

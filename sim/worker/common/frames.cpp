@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/calibrate/calibrate.h"
 #include "sim/calibrate/camera_file.h"
 #include "sim/worker/common/fields.h"
@@ -14,18 +15,6 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kListing = "frames.json";
-
-Json markers_json(const std::vector<registration::MarkerReport>& markers) {
-  Json out = Json::array();
-  for (const auto& m : markers) {
-    out.push_back({{"name", m.name}, {"used", m.used}});
-    if (m.used)
-      out.back().update({{"rms_mm", m.rms_mm}, {"residual_mm", m.residual_mm}});
-    else
-      out.back()["why_not"] = m.why_not;
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -68,10 +57,18 @@ Result<Scan> read_scan(const std::filesystem::path& folder, const std::filesyste
   return out;
 }
 
-Json film_frame_json(const registration::FilmFrame& frame) {
-  return {{"camera", pose_json(frame.X_CF().inverse())},
-          {"rms_mm", frame.fit.rms_mm},
-          {"markers", markers_json(frame.markers)}};
+void set_film_frame(const registration::FilmFrame& frame, v1::FilmFrameFacts& out) {
+  set_pose(frame.X_CF().inverse(), *out.mutable_camera());
+  out.set_rms_mm(frame.fit.rms_mm);
+  for (const registration::MarkerReport& marker : frame.markers) {
+    v1::FilmFrameFacts::Marker& added = *out.add_markers();
+    added.set_name(marker.name);
+    added.set_used(marker.used);
+    added.set_why_not(marker.why_not);
+    if (!marker.used) continue;
+    added.set_rms_mm(marker.rms_mm);
+    added.set_residual_mm(marker.residual_mm);
+  }
 }
 
 }  // namespace hydroprint::worker

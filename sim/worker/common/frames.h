@@ -13,6 +13,10 @@
 #include "sim/worker/common/input_folder.h"
 #include "sim/worker/common/report.h"
 
+namespace hydroprint::v1 {
+class FilmFrameFacts;
+}  // namespace hydroprint::v1
+
 // Reading of depth frames, for calibrate, calibrate-camera and fuse. For inclusion in .cpp files
 // only.
 namespace hydroprint::worker {
@@ -50,8 +54,6 @@ struct Scan {
 [[nodiscard]] Result<Scan> read_scan(const std::filesystem::path& folder,
                                      const std::filesystem::path& camera, const Context& context);
 
-/// Formats the film frame: the camera's pose, the rms misfit of the markers, and the markers that
-/// were used.
-[[nodiscard]] Json film_frame_json(const registration::FilmFrame& frame);
+void set_film_frame(const registration::FilmFrame& frame, v1::FilmFrameFacts& out);
 
 }  // namespace hydroprint::worker

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/pose_file.h"
@@ -45,7 +46,7 @@ Result<Pose> pose_of(const v1::Pose& pose) {
 }
 
 Warnings pose_warnings_of(const v1::Pose& pose) {
-  return pose_warnings(uncertainty_of(pose), "pose");
+  return pose_warnings(uncertainty_of(pose), {OfItem{"pose"}});
 }
 
 }  // namespace hydroprint::worker

@@ -1,5 +1,6 @@
 #include "sim/worker/common/page.h"
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
@@ -9,14 +10,12 @@ Status set_paper(print::PageSettings& page, const std::string& paper) {
   return {};
 }
 
-Json page_parameters_json(const print::PageSettings& page, const film::Outline& outline,
-                          int threads) {
-  return {{"film", film_json(outline)},
-          {"paper_mm", pair_of(page.paper_mm)},
-          {"printer_margin_mm", page.printer_margin_mm},
-          {"job_name", page.job_name},
-          {"date", page.date},
-          {"threads", threads}};
+void set_page(const print::PageSettings& page, const film::Outline& outline, v1::PageFacts& out) {
+  set_film(outline, *out.mutable_film());
+  add_all(page.paper_mm, out.mutable_paper_mm());
+  out.set_printer_margin_mm(page.printer_margin_mm);
+  out.set_job_name(page.job_name);
+  out.set_date(page.date);
 }
 
 }  // namespace hydroprint::worker

@@ -5,6 +5,10 @@
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/report.h"
 
+namespace hydroprint::v1 {
+class PageFacts;
+}  // namespace hydroprint::v1
+
 // Page options that print-image and template share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
@@ -21,8 +25,6 @@ Result<print::PageSettings> page_settings(const Spec& spec) {
   return out;
 }
 
-/// Returns the page's part of the parameters in report.json.
-[[nodiscard]] Json page_parameters_json(const print::PageSettings& page,
-                                        const film::Outline& outline, int threads);
+void set_page(const print::PageSettings& page, const film::Outline& outline, v1::PageFacts& out);
 
 }  // namespace hydroprint::worker

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
@@ -54,24 +55,22 @@ image::PaintSource paint_source_of(const v1::Paint& paint, const InputFolder& in
   return out;
 }
 
-Json layers_json(const std::vector<image::PlacedLayer>& layers) {
-  Json out = Json::array();
+void add_layers(const std::vector<image::PlacedLayer>& layers, v1::SimulateReport& out) {
   for (const image::PlacedLayer& layer : layers) {
-    Json& json = out.emplace_back(
-        Json{{"name", layer.name}, {"projection", image::name_of(layer.projection)}});
-    if (has_place(layer.projection)) {
-      const image::Placement& place = layer.placement;
-      json.update({{"position_mm", list_of(place.position_mm)},
-                   {"direction", list_of(place.axes.col(2))},
-                   {"up", list_of(place.axes.col(1))},
-                   {"size_mm", place.width_mm},
-                   {"turn_deg", place.turn_rad / kRadPerDeg},
-                   {"mirror", place.mirror},
-                   {"repeat", place.repeat}});
-    }
-    json["opacity"] = layer.opacity;
+    v1::SimulateReport::Layer& added = *out.add_layers();
+    added.set_name(layer.name);
+    added.set_projection(std::string(image::name_of(layer.projection)));
+    added.set_opacity(layer.opacity);
+    if (!has_place(layer.projection)) continue;
+    const image::Placement& place = layer.placement;
+    add_all(place.position_mm, added.mutable_position_mm());
+    add_all(place.axes.col(2), added.mutable_direction());
+    add_all(place.axes.col(1), added.mutable_up());
+    added.set_size_mm(place.width_mm);
+    added.set_turn_deg(place.turn_rad / kRadPerDeg);
+    added.set_mirror(place.mirror);
+    added.set_repeat(place.repeat);
   }
-  return out;
 }
 
 }  // namespace hydroprint::worker

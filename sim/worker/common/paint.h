@@ -10,6 +10,10 @@
 #include "sim/worker/common/input_folder.h"
 #include "sim/worker/common/report.h"
 
+namespace hydroprint::v1 {
+class SimulateReport;
+}  // namespace hydroprint::v1
+
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
@@ -46,7 +50,7 @@ Result<PaintOptions> paint_options(const Spec& spec, const InputFolder& inputs,
   return out;
 }
 
-/// Returns the layers for report.json, with the defaults filled in.
-[[nodiscard]] Json layers_json(const std::vector<image::PlacedLayer>& layers);
+/// Adds the layers to the report, with the defaults filled in.
+void add_layers(const std::vector<image::PlacedLayer>& layers, v1::SimulateReport& out);
 
 }  // namespace hydroprint::worker

@@ -1,76 +1,94 @@
 #include "sim/worker/common/report.h"
 
-#include <sys/resource.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/reflection.h>
 
-#include "sim/worker/common/report_values.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hydroprint/v1/report.pb.h"
+#include "proto/write_json.h"
+#include "sim/base/artifact_file.h"
+#include "sim/base/file_digest.h"
+#include "sim/base/utf8.h"
 
 namespace hydroprint::worker {
 namespace {
 
-Json inputs_json(const std::vector<Input>& inputs) {
-  Json out = Json::array();
-  for (const Input& input : inputs) {
-    out.push_back({{"role", input.file.role},
-                   {"path", input.file.path.string()},
-                   {"sha256", input.digest.sha256},
-                   {"size_bytes", input.digest.size_bytes}});
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
+
+void repair_text(Message& message, const FieldDescriptor& field) {
+  const auto& reflection = *message.GetReflection();
+  if (!field.is_repeated())
+    return reflection.SetString(&message, &field, utf8(reflection.GetString(message, &field)));
+  for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
+    reflection.SetRepeatedString(&message, &field, i,
+                                 utf8(reflection.GetRepeatedString(message, &field, i)));
   }
-  return out;
 }
 
-Json seconds_json(const std::vector<std::pair<std::string, double>>& seconds) {
-  Json out = Json::object();
-  for (const auto& [stage, value] : seconds) out[stage] = value;
-  return out;
+bool is_finite(const Message& message, const FieldDescriptor& field) {
+  const auto& reflection = *message.GetReflection();
+  if (!field.is_repeated()) return std::isfinite(reflection.GetDouble(message, &field));
+  const auto numbers = reflection.GetRepeatedFieldRef<double>(message, &field);
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-std::string dump(const Json& json, int indent) {
-  // JSON must be UTF-8, but file names may contain other bytes.
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+void visit_messages(Message& message, const FieldDescriptor& field) {
+  const auto& reflection = *message.GetReflection();
+  if (!field.is_repeated()) return make_writable(*reflection.MutableMessage(&message, &field));
+  for (int i = 0; i < reflection.FieldSize(message, &field); ++i)
+    make_writable(*reflection.MutableRepeatedMessage(&message, &field, i));
 }
 
 }  // namespace
 
-Status add_inputs(Report& report, const std::vector<InputPath>& files) {
+Status add_inputs(v1::RunFacts& run, const std::vector<InputPath>& files) {
   for (const InputPath& file : files) {
     if (file.path.empty()) continue;
     HP_ASSIGN_OR_RETURN(FileDigest digest, digest_file(file.path));
-    report.inputs.push_back({file, std::move(digest)});
+    v1::RunFacts::Input& input = *run.add_inputs();
+    input.set_role(file.role);
+    input.set_path(file.path.string());
+    input.set_sha256(std::move(digest.sha256));
+    input.set_size_bytes(static_cast<double>(digest.size_bytes));
   }
   return {};
 }
 
-std::int64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{usage.ru_maxrss} * 1024;
+void make_writable(Message& message) {
+  std::vector<const FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    switch (field->cpp_type()) {
+      case FieldDescriptor::CPPTYPE_STRING:
+        repair_text(message, *field);
+        break;
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        if (!is_finite(message, *field)) message.GetReflection()->ClearField(&message, field);
+        break;
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        visit_messages(message, *field);
+        break;
+      default:
+        break;
+    }
+  }
 }
 
-std::string report_json(const std::string& verb, const Json& findings, const Report& report) {
-  Json out = {{"program", "hydroprint-worker"},
-              {"version", HYDROPRINT_VERSION},
-              {"verb", verb},
-              {"inputs", inputs_json(report.inputs)}};
-  out.update(findings);
-  out.update({{"stage_seconds", seconds_json(report.stage_seconds)},
-              {"total_seconds", report.total_s},
-              {"peak_memory_bytes", peak_memory_bytes()},
-              {"warnings", warnings_json(report.warnings)},
-              {"artifacts", report.artifacts}});
-  return dump(out, 2);
+Status write_message(const std::filesystem::path& path, Message& message) {
+  make_writable(message);
+  HP_ASSIGN_OR_RETURN(const std::string text, json_file_of(message));
+  return image::write_artifact(path, text);
 }
 
-std::string summary_json(const std::filesystem::path& dir, const Json& figures,
-                         const Report& report) {
-  Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
-  out.update(figures);
-  out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
-  return dump(out, -1);
-}
-
-std::string artifacts_line(const std::filesystem::path& dir, const Report& report) {
+std::string artifacts_line(const std::filesystem::path& dir, const v1::RunFacts& run) {
   std::string files;
-  for (const std::string& name : report.artifacts) files += name + " ";
+  for (const std::string& name : run.artifacts()) files += name + " ";
   return dir.string() + ": " + files + "report.json\n";
 }
 

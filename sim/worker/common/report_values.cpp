@@ -1,59 +1,36 @@
 #include "sim/worker/common/report_values.h"
 
 #include <Eigen/Geometry>
-#include <cctype>
+#include <cstdint>
 
 #include "hydroprint/v1/report.pb.h"
-#include "sim/base/utf8.h"
 
 namespace hydroprint::worker {
-namespace {
 
-/// Returns the code of the .proto file for a code in snake_case.
-v1::ReportWarning::Code code_of(std::string code) {
-  for (char& c : code) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  v1::ReportWarning::Code out = v1::ReportWarning::CODE_UNSPECIFIED;
-  (void)v1::ReportWarning::Code_Parse(code, &out);
-  return out;
-}
-
-}  // namespace
-
-Json pair_of(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
-
-Json list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json pose_json(const Pose& X_FO) {
+void set_pose(const Pose& X_FO, v1::Pose& out) {
   const Eigen::Quaterniond q(X_FO.linear());
-  return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_mm", list_of(X_FO.translation())}};
+  out.clear_rotation_wxyz();
+  for (const double x : {q.w(), q.x(), q.y(), q.z()}) out.add_rotation_wxyz(x);
+  out.clear_translation_mm();
+  for (const double x : X_FO.translation()) out.add_translation_mm(x);
 }
 
-Json film_json(const film::Outline& outline) {
-  return {{"name", outline.name},
-          {"min_mm", pair_of(outline.min_mm)},
-          {"max_mm", pair_of(outline.max_mm)},
-          {"corners", outline.polygon.size()}};
+void set_film(const film::Outline& outline, v1::FilmFacts& out) {
+  out.set_name(outline.name);
+  add_all(outline.min_mm, out.mutable_min_mm());
+  add_all(outline.max_mm, out.mutable_max_mm());
+  out.set_corners(static_cast<std::int32_t>(outline.polygon.size()));
 }
 
-Json warnings_json(const Warnings& warnings) {
-  Json out = Json::array();
-  for (const Warning& warning : warnings) {
-    out.push_back({{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
-  }
-  return out;
+void set_mesh(const mesh::Model& model, v1::MeshFacts& out) {
+  out.set_vertices(static_cast<std::int32_t>(model.vertices.size()));
+  out.set_triangles(static_cast<std::int32_t>(model.triangles.size()));
 }
 
-std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
-
-void set_warning(const Warning& warning, v1::ReportWarning& out) {
-  out.set_code(code_of(warning.code));
-  out.set_message(utf8(warning.message));
-  out.set_where(utf8(warning.where));
-}
-
-Json mesh_json(const MeshSize& size) {
-  return {{"vertices", size.vertices}, {"triangles", size.triangles}};
+void set_surface(const mesh::Surface& surface, v1::MeshFacts& out) {
+  out.set_surface_points(static_cast<std::int32_t>(surface.points.size()));
+  out.set_surface_triangles(static_cast<std::int32_t>(surface.triangles.size()));
+  out.set_closed(surface.closed);
 }
 
 }  // namespace hydroprint::worker

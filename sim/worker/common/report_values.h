@@ -1,44 +1,36 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cstddef>
-#include <nlohmann/json.hpp>
-#include <string>
-
 #include "sim/base/pose.h"
-#include "sim/base/result.h"
 #include "sim/film/outline.h"
-#include "sim/worker/common/report.h"
+#include "sim/mesh/model.h"
+#include "sim/mesh/surface.h"
 
 namespace hydroprint::v1 {
-class ReportWarning;
+class FilmFacts;
+class MeshFacts;
+class Pose;
 }  // namespace hydroprint::v1
 
 // Values that the reports of several verbs contain. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// Returns [x, y].
-[[nodiscard]] Json pair_of(const Eigen::Vector2d& v);
-/// Returns [x, y, z].
-[[nodiscard]] Json list_of(const Eigen::Vector3d& v);
+/// Appends numbers or texts to a field of a message.
+template <class Values, class Field>
+void add_all(const Values& values, Field* field) {
+  field->Add(values.begin(), values.end());
+}
 
-/// Returns a pose in the format of pose files (option `--pose`).
-[[nodiscard]] Json pose_json(const Pose& X_FO);
+/// Appends the entries of a matrix, row by row.
+template <class Matrix, class Field>
+void add_rows(const Matrix& matrix, Field* field) {
+  for (const auto& row : matrix.rowwise()) add_all(row, field);
+}
 
-[[nodiscard]] Json film_json(const film::Outline& outline);
-
-/// Returns [{code, message, where}].
-[[nodiscard]] Json warnings_json(const Warnings& warnings);
-
-/// Sets a warning of a report that is declared as a message.
-void set_warning(const Warning& warning, v1::ReportWarning& out);
-
-/// Returns the text as UTF-8, which JSON and messages need; file names may contain other bytes.
-[[nodiscard]] std::string utf8(const std::string& text);
-
-struct MeshSize {
-  std::size_t vertices = 0, triangles = 0;
-};
-[[nodiscard]] Json mesh_json(const MeshSize& size);
+void set_pose(const Pose& X_FO, v1::Pose& out);
+void set_film(const film::Outline& outline, v1::FilmFacts& out);
+/// Sets the size of the file's mesh.
+void set_mesh(const mesh::Model& model, v1::MeshFacts& out);
+/// Sets the size of the surface, and whether it is closed.
+void set_surface(const mesh::Surface& surface, v1::MeshFacts& out);
 
 }  // namespace hydroprint::worker

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "sim/base/process/termination.h"
 #include "sim/base/result.h"
@@ -19,8 +20,8 @@ struct RunOptions {
 
 /// The output of a successful run.
 struct Finished {
-  std::string summary;  ///< text for stdout; JSON if RunOptions::json
-  Warnings warnings;
+  std::string summary;                ///< text for stdout; JSON if RunOptions::json
+  std::vector<std::string> warnings;  ///< for stderr, one line each
 };
 
 /// A computation with its options, ready to run.

@@ -12,8 +12,10 @@
 #include <system_error>
 #include <utility>
 
+#include "proto/warning_message.h"
 #include "sim/image/io/colour.h"
 #include "sim/mesh/units.h"
+#include "sim/worker/common/report.h"
 #include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
@@ -34,7 +36,7 @@ std::string hex(const Eigen::Vector3f& linear) {
 
 /// Returns a file's name relative to the model's folder.
 std::string name_beside(const mesh::Model& model, const std::filesystem::path& file) {
-  return utf8(file.lexically_proximate(model.path.parent_path()).generic_string());
+  return file.lexically_proximate(model.path.parent_path()).generic_string();
 }
 
 bool has_texture_file(const mesh::Material& material) {
@@ -70,7 +72,7 @@ void add_materials(const mesh::Model& model, const image::Paint& paint, v1::Mode
     auto& entry = known[{material, paint.ink_index(t)}];
     if (entry == nullptr) {
       entry = out.add_materials();
-      if (material != nullptr) entry->set_name(utf8(material->name));
+      if (material != nullptr) entry->set_name(material->name);
       set_colours(model, paint, t, material, *entry);
     }
     entry->set_triangles(entry->triangles() + 1);
@@ -127,11 +129,11 @@ v1::ModelSummary summary_of(const mesh::Model& model, const image::Paint& paint,
   out.set_has_colour(paint.has_colour());
   add_materials(model, paint, out);
   add_companions(model, out);
-  for (const std::string& phrase : model.not_understood) out.add_not_understood(utf8(phrase));
+  add_all(model.not_understood, out.mutable_not_understood());
   out.set_shown_triangles(static_cast<std::int32_t>(shown.triangles()));
-  for (const Warnings* warnings : {&model.warnings, &paint.warnings(), &shown.warnings}) {
-    for (const Warning& warning : *warnings) set_warning(warning, *out.add_warnings());
-  }
+  for (const Warnings* warnings : {&model.warnings, &paint.warnings(), &shown.warnings})
+    add_warnings(*warnings, *out.mutable_warnings());
+  make_writable(out);
   return out;
 }
 

@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
-#include "sim/base/artifact_file.h"
+#include "proto/warning_message.h"
 #include "sim/calibrate/calibrate.h"
 #include "sim/film/outline.h"
 #include "sim/image/figures/alignment_picture.h"
@@ -105,63 +107,45 @@ double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
   return out;
 }
 
-Json matrix_json(const registration::Matrix6& matrix) {
-  Json out = Json::array();
-  for (const auto& row : matrix.rowwise())
-    out.push_back(std::vector<double>(row.begin(), row.end()));
-  return out;
+void set_uncertainty(const calibrate::Calibration& found, v1::CalibrationFacts& out) {
+  v1::CalibrationFacts::Uncertainty& uncertainty = *out.mutable_uncertainty();
+  add_all(found.object.centre_mm, uncertainty.mutable_about_mm());
+  add_rows(found.object.covariance, uncertainty.mutable_covariance_turn_rad_shift_mm());
+  uncertainty.set_error_p50_mm(calibrate::error_quantile_mm(found.error_mm, 0.5));
+  uncertainty.set_error_p95_mm(found.uncertainty.error_p95_mm.value_or(0));
+  uncertainty.set_error_max_mm(calibrate::error_quantile_mm(found.error_mm, 1));
+  add_all(found.uncertainty.from_nominal_pose, out.mutable_from_nominal_pose());
+  if (!found.object.symmetry.empty()) out.add_symmetries(found.object.symmetry);
 }
 
-Json scan_json(const registration::ObjectPose& object) {
-  return {{"points", object.fit.points},
-          {"on_object_share", object.on_share},
-          {"misfit_mm", object.misfit_mm},
-          {"rms_mm", object.fit.rms_mm},
-          {"rms_sigmas", object.fit.rms_sigmas},
-          {"out_of_view_share", object.sight.out_of_view},
-          {"hidden_share", object.sight.before + object.sight.without_depth}};
+void set_scan(const registration::ObjectPose& object, v1::CalibrationFacts::Scan& out) {
+  out.set_points(static_cast<std::int32_t>(object.fit.points));
+  out.set_on_object_share(object.on_share);
+  out.set_misfit_mm(object.misfit_mm);
+  out.set_rms_mm(object.fit.rms_mm);
+  out.set_rms_sigmas(object.fit.rms_sigmas);
+  out.set_out_of_view_share(object.sight.out_of_view);
+  out.set_hidden_share(object.sight.before + object.sight.without_depth);
 }
 
-Json symmetries_json(const registration::ObjectPose& object) {
-  Json out = Json::array();
-  if (!object.symmetry.empty()) out.push_back(object.symmetry);
-  return out;
-}
-
-/// Returns the content of pose.json.
-Json pose_file_json(const calibrate::Calibration& c) {
-  Json out = pose_json(c.object.X_FO);
-  out["error_p95_mm"] = c.uncertainty.error_p95_mm.value_or(0);
-  out["from_nominal_pose"] = c.uncertainty.from_nominal_pose;
-  return out;
-}
-
-/// Returns the content of calibration.json.
 /// @param lowest_mm  z of the object's lowest point (F)
-Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
-  Json out = {{"pose", pose_json(c.object.X_FO)},
-              {"uncertainty",
-               {{"about_mm", list_of(c.object.centre_mm)},
-                {"covariance_turn_rad_shift_mm", matrix_json(c.object.covariance)},
-                {"error_p50_mm", calibrate::error_quantile_mm(c.error_mm, 0.5)},
-                {"error_p95_mm", c.uncertainty.error_p95_mm.value_or(0)},
-                {"error_max_mm", calibrate::error_quantile_mm(c.error_mm, 1)}}},
-              {"from_nominal_pose", c.uncertainty.from_nominal_pose},
-              {"symmetries", symmetries_json(c.object)},
-              {"film_frame", film_frame_json(c.film_frame)},
-              {"scan", scan_json(c.object)}};
-  if (c.water)
-    out["water"] = {{"z_mm", c.water->z_mm}, {"sigma_mm", c.water->sigma_mm}};
-  else
-    out["water"] = nullptr;
-  out["height_mm"] = lowest_mm - (c.water ? c.water->z_mm : 0);
-  return out;
+void set_calibration(const calibrate::Calibration& found, double lowest_mm,
+                     v1::CalibrationFacts& out) {
+  set_pose(found.object.X_FO, *out.mutable_pose());
+  set_uncertainty(found, out);
+  set_film_frame(found.film_frame, *out.mutable_film_frame());
+  set_scan(found.object, *out.mutable_scan());
+  if (found.water) {
+    out.mutable_water()->set_z_mm(found.water->z_mm);
+    out.mutable_water()->set_sigma_mm(found.water->sigma_mm);
+  }
+  out.set_height_mm(lowest_mm - (found.water ? found.water->z_mm : 0));
 }
 
-class Calibrate final : public ArtifactTask {
+class Calibrate final : public ReportTask<v1::CalibrateReport> {
  public:
   explicit Calibrate(CalibrateOptions options)
-      : ArtifactTask("calibrate"), options_(std::move(options)) {}
+      : ReportTask("calibrate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
   [[nodiscard]] std::string memory_tip() const override { return "fewer frames, a smaller model"; }
@@ -181,34 +165,21 @@ class Calibrate final : public ArtifactTask {
     return out;
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return {{"parameters",
-             {{"scale", options_.object.scale},
-              {"film", film_json(outline_)},
-              {"threads", report.threads},
-              {"gripper_mm", options_.gripper_mm ? Json(*options_.gripper_mm) : Json()}}},
-            {"mesh", mesh_json(mesh_)},
-            {"calibration", figures()}};
-  }
-  [[nodiscard]] Json figures() const override { return calibration_json(found_, lowest_mm_); }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
-  [[nodiscard]] Status write(const std::filesystem::path& folder, const Context& context) const;
+  [[nodiscard]] Status write(const std::filesystem::path& folder, const Context& context);
 
   CalibrateOptions options_;
-  film::Outline outline_;
-  MeshSize mesh_;
   calibrate::Calibration found_;
-  double lowest_mm_ = 0;  ///< z of the object's lowest point (F)
 };
 
-Status Calibrate::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Calibrate::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   const ObjectOptions& object = options_.object;
-  HP_ASSIGN_OR_RETURN(outline_, film::parse_outline(object.film));
+  HP_ASSIGN_OR_RETURN(const film::Outline outline, film::parse_outline(object.film));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   context.progress("reading", 0);
   calibrate::Task task;
@@ -218,7 +189,6 @@ Status Calibrate::compute(OutFolder& folder, Report& report, const Context& cont
                       mesh::read_model(object.mesh, object.scale, context));
   HP_ASSIGN_OR_RETURN(task.surface,
                       mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
-  mesh_ = {model.vertices.size(), model.triangles.size()};
   // The alignment computes in floats, so the surface is moved to the origin, and the poses with it.
   const Eigen::Vector3d centre_mm = mesh::far_centre_mm(model.vertices);
   for (Eigen::Vector3d& p : task.surface.points) p -= centre_mm;
@@ -227,26 +197,34 @@ Status Calibrate::compute(OutFolder& folder, Report& report, const Context& cont
   task.nominal_FO = object.X_FO;
   if (task.nominal_FO) task.nominal_FO->translate(centre_mm);
   task.gripper_mm = options_.gripper_mm;
-  task.half_film_mm = outline_.size_mm() / 2;
+  task.half_film_mm = outline.size_mm() / 2;
   HP_ASSIGN_OR_RETURN(found_, calibrate::calibrate(task, context));
-  lowest_mm_ = lowest_mm(task.surface, found_.object.X_FO);
+  const double lowest = lowest_mm(task.surface, found_.object.X_FO);
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write_pictures(folder.partial(), task.surface, found_, context));
   found_.object.X_FO.translate(-centre_mm);
-  report.warnings = model.warnings;
-  report.warnings.insert(report.warnings.end(), found_.warnings.begin(), found_.warnings.end());
+  report_.set_scale(object.scale);
+  set_film(outline, *report_.mutable_film());
+  if (options_.gripper_mm) report_.set_gripper_mm(*options_.gripper_mm);
+  set_mesh(model, *report_.mutable_mesh());
+  set_calibration(found_, lowest, *report_.mutable_calibration());
+  add_warnings(model.warnings, *run.mutable_warnings());
+  add_warnings(found_.warnings, *run.mutable_warnings());
   HP_RETURN_IF_ERROR(write(folder.partial(), context));
-  report.artifacts = {"calibration.json", "pose.json", "alignment.png", "error.png"};
+  for (const char* name : {"calibration.json", "pose.json", "alignment.png", "error.png"})
+    run.add_artifacts(name);
   return {};
 }
 
-Status Calibrate::write(const std::filesystem::path& folder, const Context& context) const {
+Status Calibrate::write(const std::filesystem::path& folder, const Context& context) {
   context.progress("writing", 0);
-  HP_RETURN_IF_ERROR(image::write_artifact(folder / "calibration.json", figures().dump(1) + "\n"));
-  return image::write_artifact(folder / "pose.json", pose_file_json(found_).dump(1) + "\n");
+  v1::Pose pose = report_.calibration().pose();
+  hydroprint::set_uncertainty(found_.uncertainty, pose);
+  HP_RETURN_IF_ERROR(write_message(folder / "calibration.json", *report_.mutable_calibration()));
+  return write_message(folder / "pose.json", pose);
 }
 
-std::string Calibrate::summary(const Report& report, const std::filesystem::path& dir) const {
+std::string Calibrate::summary(const std::filesystem::path& dir) const {
   const auto& markers = found_.film_frame.markers;
   const auto used =
       std::count_if(markers.begin(), markers.end(), [](const auto& m) { return m.used; });
@@ -258,7 +236,7 @@ std::string Calibrate::summary(const Report& report, const std::filesystem::path
   return fmt::format(
       "{}used {} of {} markers; residual of the object's fit {:.2f} mm (rms), uncertainty of the "
       "surface {:.2f} mm (95th percentile)\n{}",
-      artifacts_line(dir, report), used, markers.size(), found_.object.fit.rms_mm,
+      artifacts_line(dir, report_.run()), used, markers.size(), found_.object.fit.rms_mm,
       found_.uncertainty.error_p95_mm.value_or(0), weak);
 }
 

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/artifact_file.h"
 #include "sim/calibrate/camera_file.h"
 #include "sim/registration/camera/calibration_board.h"
 #include "sim/worker/common/artifact_task.h"
 #include "sim/worker/common/frames.h"
+#include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -45,10 +48,20 @@ Result<std::optional<scan::DepthSteps>> depth_steps(const std::vector<std::files
   return scan::find_depth_steps(counts);
 }
 
-class CalibrateCamera final : public ArtifactTask {
+void set_camera(const registration::CameraCalibration& camera, v1::CalibrateCameraReport& out) {
+  out.set_width_px(camera.lens.width_px);
+  out.set_height_px(camera.lens.height_px);
+  add_all(camera.lens.parameters(), out.mutable_lens());
+  add_rows(camera.covariance, out.mutable_covariance());
+  out.set_views(static_cast<std::int32_t>(camera.views));
+  out.set_rms_mm(camera.rms_mm);
+  out.set_rms_sigmas(camera.rms_sigmas);
+}
+
+class CalibrateCamera final : public ReportTask<v1::CalibrateCameraReport> {
  public:
   explicit CalibrateCamera(Views views)
-      : ArtifactTask("calibrate-camera"), views_(std::move(views)) {}
+      : ReportTask("calibrate-camera"), views_(std::move(views)) {}
 
   [[nodiscard]] std::string subject() const override { return views_.front().string(); }
   [[nodiscard]] std::string memory_tip() const override { return "fewer frames"; }
@@ -63,23 +76,17 @@ class CalibrateCamera final : public ArtifactTask {
     return out;
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& /*report*/) const override {
-    return {{"camera", Json::parse(calibrate::camera_summary_json(camera_))}};
-  }
-  [[nodiscard]] Json figures() const override {
-    return {{"views", camera_.views}, {"rms_mm", camera_.rms_mm}};
-  }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   Views views_;
   registration::CameraCalibration camera_;
 };
 
-Status CalibrateCamera::compute(OutFolder& folder, Report& report, const Context& context) {
+Status CalibrateCamera::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   HP_RETURN_IF_ERROR(check_cancelled(context));
   const scan::DepthNoise noise;
   HP_ASSIGN_OR_RETURN(const auto steps, depth_steps(views_, context));
@@ -102,15 +109,16 @@ Status CalibrateCamera::compute(OutFolder& folder, Report& report, const Context
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(
       image::write_artifact(folder.partial() / "camera.json", calibrate::camera_json(camera_)));
-  report.artifacts = {"camera.json"};
+  run.add_artifacts("camera.json");
+  set_camera(camera_, report_);
   return {};
 }
 
-std::string CalibrateCamera::summary(const Report& report, const std::filesystem::path& dir) const {
+std::string CalibrateCamera::summary(const std::filesystem::path& dir) const {
   return fmt::format(
       "{}{} views; focal length {:.1f} px, depth scale {:+.2f} %; residual of the board {:.2f} mm "
       "(rms)\n",
-      artifacts_line(dir, report), camera_.views, camera_.lens.fx_px,
+      artifacts_line(dir, report_.run()), camera_.views, camera_.lens.fx_px,
       100 * (camera_.lens.depth_scale - 1), camera_.rms_mm);
 }
 

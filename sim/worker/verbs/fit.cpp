@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/base/artifact_file.h"
 #include "sim/base/number_text.h"
 #include "sim/film/profile.h"
@@ -83,68 +86,41 @@ constexpr const char* kMethod =
     "0.6 times the size; intervals by Student's t, limited to the profile's range, one-sided for "
     "an estimate at the end of that range";
 
-/// JSON has no infinity: an infinite drag length becomes null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json estimate_json(const fit::Estimate& e) {
-  Json out = {{"name", e.name},
-              {"start", number(e.start)},
-              {"value", number(e.value)},
-              {"standard_error", number(e.standard_error)},
-              {"interval", {number(e.low), number(e.high)}},
-              {"one_sided", e.is_one_sided},
-              {"discretisation_share", e.discretisation_error / e.scaled_error}};
-  return out;
+void add_estimate(const fit::Estimate& estimate, v1::FitReport& out) {
+  v1::FitReport::Estimate& added = *out.add_estimates();
+  added.set_name(estimate.name);
+  added.set_start(estimate.start);
+  added.set_value(estimate.value);
+  added.set_standard_error(estimate.standard_error);
+  added.set_low(estimate.low);
+  added.set_high(estimate.high);
+  added.set_one_sided(estimate.is_one_sided);
+  added.set_discretisation_share(estimate.discretisation_error / estimate.scaled_error);
+  out.mutable_correlation()->add_names(estimate.name);
 }
 
-Json estimates_json(const fit::Outcome& outcome) {
-  Json out = Json::array();
-  for (const fit::Estimate& e : outcome.estimates) out.push_back(estimate_json(e));
-  return out;
+void add_undetermined(const fit::Undetermined& undetermined, v1::FitReport& out) {
+  v1::FitReport::Undetermined& added = *out.add_undetermined();
+  added.set_name(undetermined.name);
+  added.set_reason(undetermined.reason);
 }
 
-Json correlation_json(const fit::Outcome& outcome) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < outcome.correlation.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < outcome.correlation.cols(); ++j) {
-      row.push_back(outcome.correlation(i, j));
-    }
-    out.push_back(row);
-  }
-  return out;
-}
-
-Json undetermined_json(const fit::Outcome& outcome) {
-  Json out = Json::array();
-  for (const fit::Undetermined& u : outcome.undetermined) {
-    out.push_back({{"name", u.name}, {"reason", u.reason}});
-  }
-  return out;
-}
-
-Json points_json(const fit::Outcome& outcome) {
+void set_points(const std::vector<fit::PointResult>& points, v1::FitReport::Points& out) {
   std::map<std::string, int> reasons;
   int used = 0, outliers = 0;
-  for (const fit::PointResult& p : outcome.points) {
+  for (const fit::PointResult& p : points) {
     used += p.is_used() ? 1 : 0;
     outliers += p.is_outlier ? 1 : 0;
     if (!p.is_used()) ++reasons[p.left_out];
   }
-  Json left_out = Json::array();
+  out.set_given(static_cast<std::int32_t>(points.size()));
+  out.set_used(used);
+  out.set_outliers(outliers);
   for (const auto& [reason, count] : reasons) {
-    left_out.push_back({{"reason", reason}, {"points", count}});
+    v1::FitReport::LeftOut& added = *out.add_left_out();
+    added.set_reason(reason);
+    added.set_points(count);
   }
-  return {{"given", outcome.points.size()},
-          {"used", used},
-          {"outliers", outliers},
-          {"left_out", left_out}};
-}
-
-Json names_json(const fit::Outcome& outcome) {
-  Json out = Json::array();
-  for (const fit::Estimate& e : outcome.estimates) out.push_back(e.name);
-  return out;
 }
 
 /// "drag_length_mm = 60.2  (95 %: 57 to 63.5)"; an infinite drag length means no drag.
@@ -156,28 +132,29 @@ std::string estimate_text(const fit::Estimate& e) {
                      std::isfinite(e.high) ? " to " + text(e.high) : " or more, or none");
 }
 
-Json fit_json(const fit::Outcome& outcome, const fit::Options& options) {
-  return {{"confidence", fit::kConfidence},
-          {"method", kMethod},
-          {"drop_outliers", options.drop_outliers},
-          {"estimates", estimates_json(outcome)},
-          {"correlation", {{"names", names_json(outcome)}, {"matrix", correlation_json(outcome)}}},
-          {"undetermined", undetermined_json(outcome)},
-          {"points", points_json(outcome)},
-          {"rms_before_mm", number(outcome.rms_before_mm)},
-          {"rms_after_mm", number(outcome.rms_after_mm)},
-          {"residual_sigma_mm", number(outcome.residual_sigma_mm)},
-          {"discretisation_mm", outcome.discretisation_mm},
-          {"degrees_of_freedom", outcome.degrees_of_freedom},
-          {"student_t", outcome.t_quantile},
-          {"iterations", outcome.iterations},
-          {"dips", outcome.dips},
-          {"settled", outcome.settled}};
+void set_outcome(const fit::Outcome& outcome, v1::FitReport& out) {
+  out.set_confidence(fit::kConfidence);
+  out.set_method(kMethod);
+  for (const fit::Estimate& estimate : outcome.estimates) add_estimate(estimate, out);
+  add_rows(outcome.correlation, out.mutable_correlation()->mutable_matrix());
+  for (const fit::Undetermined& undetermined : outcome.undetermined)
+    add_undetermined(undetermined, out);
+  set_points(outcome.points, *out.mutable_points());
+  out.set_rms_before_mm(outcome.rms_before_mm);
+  out.set_rms_after_mm(outcome.rms_after_mm);
+  out.set_residual_sigma_mm(outcome.residual_sigma_mm);
+  out.set_discretisation_mm(outcome.discretisation_mm);
+  out.set_degrees_of_freedom(outcome.degrees_of_freedom);
+  out.set_student_t(outcome.t_quantile);
+  out.set_iterations(outcome.iterations);
+  out.set_dips(outcome.dips);
+  out.set_settled(outcome.settled);
+  set_profile(outcome.profile, *out.mutable_profile());
 }
 
-class Fit final : public ArtifactTask {
+class Fit final : public ReportTask<v1::FitReport> {
  public:
-  explicit Fit(FitOptions options) : ArtifactTask("fit"), options_(std::move(options)) {}
+  explicit Fit(FitOptions options) : ReportTask("fit"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.dip.object.mesh.string(); }
   [[nodiscard]] std::vector<Stage> stages() const override {
@@ -195,47 +172,38 @@ class Fit final : public ArtifactTask {
             {"points", options_.points}};
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return {{"parameters", dip_parameters_json(options_.dip, dip_, outcome_.X_FO, report.threads)},
-            {"mesh", mesh_json(mesh_)},
-            {"fit", fit_json(outcome_, options_.fit)},
-            {"profile", profile_json(outcome_.profile)}};
-  }
-  [[nodiscard]] Json figures() const override {
-    return {{"estimates", estimates_json(outcome_)},
-            {"undetermined", undetermined_json(outcome_)},
-            {"rms_before_mm", number(outcome_.rms_before_mm)},
-            {"rms_after_mm", number(outcome_.rms_after_mm)}};
-  }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   [[nodiscard]] Status write(const std::filesystem::path& folder) const;
 
   FitOptions options_;
   pipeline::DipOptions dip_;
-  MeshSize mesh_;
   fit::Outcome outcome_;
 };
 
-Status Fit::compute(OutFolder& folder, Report& report, const Context& context) {
-  HP_ASSIGN_OR_RETURN(dip_, read_inked_dip(options_.dip, options_.ink_image, report, context));
+Status Fit::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
+  HP_ASSIGN_OR_RETURN(dip_, read_inked_dip(options_.dip, options_.ink_image, run, context));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   HP_ASSIGN_OR_RETURN(const std::vector<fit::Point> points, fit::read_points(options_.points));
   context.progress("reading", 0);
   const ObjectOptions& object = options_.dip.object;
   HP_ASSIGN_OR_RETURN(const mesh::Model model,
                       mesh::read_model(object.mesh, object.scale, context));
-  mesh_ = {model.vertices.size(), model.triangles.size()};
   HP_ASSIGN_OR_RETURN(outcome_, fit::fit(model, dip_, points, options_.fit, context));
-  report.warnings = outcome_.warnings;
+  set_dip(options_.dip, dip_, outcome_.X_FO, *report_.mutable_parameters());
+  set_mesh(model, *report_.mutable_mesh());
+  report_.set_drop_outliers(options_.fit.drop_outliers);
+  set_outcome(outcome_, report_);
+  add_warnings(outcome_.warnings, *run.mutable_warnings());
   context.progress("writing", 0);
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write(folder.partial()));
-  report.artifacts = {"film_profile.toml", "residuals.csv", "residuals.png"};
+  for (const char* name : {"film_profile.toml", "residuals.csv", "residuals.png"})
+    run.add_artifacts(name);
   return {};
 }
 
@@ -248,7 +216,7 @@ Status Fit::write(const std::filesystem::path& folder) const {
   return image::write_png(folder / "residuals.png", picture, image::kScreenDpi);
 }
 
-std::string Fit::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
+std::string Fit::summary(const std::filesystem::path& dir) const {
   std::string out =
       fmt::format("{}/film_profile.toml: residuals {:.3f} mm (rms), {:.3f} mm before the fit\n",
                   dir.string(), outcome_.rms_after_mm, outcome_.rms_before_mm);

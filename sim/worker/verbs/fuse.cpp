@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/base/artifact_file.h"
 #include "sim/calibrate/swept_scan.h"
 #include "sim/image/figures/alignment_picture.h"
@@ -15,6 +18,7 @@
 #include "sim/mesh/make_surface.h"
 #include "sim/worker/common/artifact_task.h"
 #include "sim/worker/common/frames.h"
+#include "sim/worker/common/report_values.h"
 #include "sim/worker/common/surface_ply.h"
 
 namespace hydroprint::worker {
@@ -90,26 +94,25 @@ double length_mm(const scan::Path& path) {
   return out;
 }
 
-Json swept_json(const calibrate::SweptScan& swept) {
+void set_swept(const calibrate::SweptScan& swept, v1::FuseReport& out) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : swept.mesh.points_mm) box.extend(p);
   const scan::Path& path = swept.path;
-  Json out = {{"frames_tracked", path.X_WC.size() - path.lost()},
-              {"frames_lost", path.lost()},
-              {"rms_mm", path.rms_mm},
-              {"path_mm", length_mm(path)},
-              {"vertices", swept.mesh.points_mm.size()},
-              {"triangles", swept.mesh.triangles.size()},
-              {"min_mm", {box.min().x(), box.min().y(), box.min().z()}},
-              {"max_mm", {box.max().x(), box.max().y(), box.max().z()}},
-              {"frame", swept.film_frame ? "film" : "camera at its first frame"}};
-  if (swept.film_frame) out["film_frame"] = film_frame_json(*swept.film_frame);
-  return out;
+  out.set_frames_tracked(static_cast<std::int32_t>(path.X_WC.size() - path.lost()));
+  out.set_frames_lost(static_cast<std::int32_t>(path.lost()));
+  out.set_rms_mm(path.rms_mm);
+  out.set_path_mm(length_mm(path));
+  out.mutable_mesh()->set_vertices(static_cast<std::int32_t>(swept.mesh.points_mm.size()));
+  out.mutable_mesh()->set_triangles(static_cast<std::int32_t>(swept.mesh.triangles.size()));
+  add_all(box.min(), out.mutable_min_mm());
+  add_all(box.max(), out.mutable_max_mm());
+  out.set_frame(swept.film_frame ? "film" : "camera at its first frame");
+  if (swept.film_frame) set_film_frame(*swept.film_frame, *out.mutable_film_frame());
 }
 
-class Fuse final : public ArtifactTask {
+class Fuse final : public ReportTask<v1::FuseReport> {
  public:
-  explicit Fuse(FuseOptions options) : ArtifactTask("fuse"), options_(std::move(options)) {}
+  explicit Fuse(FuseOptions options) : ReportTask("fuse"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
   [[nodiscard]] std::string memory_tip() const override { return "a larger --voxel-mm"; }
@@ -125,22 +128,17 @@ class Fuse final : public ArtifactTask {
     return out;
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return {{"parameters", {{"voxel_mm", options_.voxel_mm}, {"threads", report.threads}}},
-            {"scan", figures()}};
-  }
-  [[nodiscard]] Json figures() const override { return swept_json(swept_); }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   FuseOptions options_;
   calibrate::SweptScan swept_;
 };
 
-Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Fuse::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   HP_RETURN_IF_ERROR(check_cancelled(context));
   context.progress("reading", 0);
   calibrate::SweptTask task;
@@ -158,23 +156,25 @@ Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) 
     return tl::unexpected(std::move(found).error());
   }
   swept_ = std::move(*found);
-  report.warnings = swept_.warnings;
+  report_.set_voxel_mm(options_.voxel_mm);
+  set_swept(swept_, report_);
+  add_warnings(swept_.warnings, *run.mutable_warnings());
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write_picture(folder.partial() / "scan.png", swept_.mesh, context));
   context.progress("writing", 0);
   HP_RETURN_IF_ERROR(write_scan(folder.partial() / "scan.ply", swept_.mesh));
   HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "camera_path.csv",
                                            path_csv(swept_.path, scan.frames.times_s)));
-  report.artifacts = {"scan.ply", "scan.png", "camera_path.csv"};
+  for (const char* name : {"scan.ply", "scan.png", "camera_path.csv"}) run.add_artifacts(name);
   return {};
 }
 
-std::string Fuse::summary(const Report& report, const std::filesystem::path& dir) const {
+std::string Fuse::summary(const std::filesystem::path& dir) const {
   return fmt::format(
       "{}{} frames, {} of them not registered; residual of the smoothed frames {:.2f} mm (rms); "
       "surface of {} triangles\n",
-      artifacts_line(dir, report), swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
-      swept_.mesh.triangles.size());
+      artifacts_line(dir, report_.run()), swept_.path.X_WC.size(), swept_.path.lost(),
+      swept_.path.rms_mm, swept_.mesh.triangles.size());
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

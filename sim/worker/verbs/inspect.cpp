@@ -7,7 +7,6 @@
 #include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
 #include "proto/model_summary_text.h"
-#include "proto/write_json.h"
 #include "sim/base/artifact_file.h"
 #include "sim/pipeline/read_inputs.h"
 #include "sim/worker/common/artifact_task.h"
@@ -49,37 +48,29 @@ class Inspect final : public ArtifactTask {
   [[nodiscard]] std::vector<InputPath> input_files() const override {
     return {{"mesh", options_.mesh}};
   }
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
-  [[nodiscard]] Result<std::string> report_text(const Report& /*report*/) const override {
-    return json_file_of(summary_);
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override {
+    return artifacts_line(dir, run_) + model_summary_text(summary_);
   }
-  [[nodiscard]] Json figures() const override { return Json::object(); }
-  [[nodiscard]] Result<std::string> json_summary(
-      const Report& report, const std::filesystem::path& /*dir*/) const override {
-    return report_text(report);
-  }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override {
-    return artifacts_line(dir, report) + model_summary_text(summary_);
-  }
+  [[nodiscard]] google::protobuf::Message& report() override { return summary_; }
+  [[nodiscard]] v1::RunFacts& run_facts() override { return run_; }
 
  private:
   InspectOptions options_;
-  v1::ModelSummary summary_;  ///< after compute()
+  v1::ModelSummary summary_;
+  v1::RunFacts run_;  ///< not in report.json
 };
 
-Status Inspect::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Inspect::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   const pipeline::ModelInput input{options_.mesh, options_.scale, options_.shape_only, true};
   HP_ASSIGN_OR_RETURN(const mesh::Model model, pipeline::read_inputs(input, context));
   HP_ASSIGN_OR_RETURN(Inspection found, inspect_model(model, options_.shape_only, context));
   summary_ = std::move(found.summary);
-  for (const v1::ReportWarning& warning : summary_.warnings()) {
-    report.warnings.push_back(
-        {v1::ReportWarning::Code_Name(warning.code()), warning.message(), warning.where()});
-  }
+  *run.mutable_warnings() = summary_.warnings();
   HP_RETURN_IF_ERROR(folder.create());
   context.progress("writing", 0);
-  report.artifacts = {"model.glb"};
+  run.add_artifacts("model.glb");
   return image::write_artifact(folder.partial() / "model.glb", found.glb);
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hydroprint/v1/report.pb.h"
-#include "proto/write_json.h"
-#include "sim/base/artifact_file.h"
+#include "proto/warning_message.h"
 #include "sim/base/number_text.h"
 #include "sim/image/io/image_file.h"
 #include "sim/pipeline/plan.h"
@@ -17,8 +17,8 @@
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/film_flow.h"
 #include "sim/worker/common/paint.h"
+#include "sim/worker/common/report_values.h"
 #include "sim/worker/common/surface_ply.h"
-#include "sim/worker/verbs/plan_report.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -86,7 +86,7 @@ Status read_immersions(const v1::PlanSpec& spec, PlanVerbOptions& out) {
     if (!dip.has_pose()) continue;
     HP_ASSIGN_OR_RETURN(immersion.X_FO, pose_of(dip.pose()));
     for (Warning& warning : pose_warnings_of(dip.pose())) {
-      warning.where = fmt::format("dip {}, {}", out.immersions.size(), warning.where);
+      warning.where.dip = static_cast<int>(out.immersions.size());
       out.pose_warnings.push_back(std::move(warning));
     }
   }
@@ -109,9 +109,38 @@ Result<PlanVerbOptions> read_options(const v1::PlanSpec& spec, const InputFolder
   return out;
 }
 
-class PlanTask final : public ArtifactTask {
+void add_dips(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
+              v1::PlanReport& out) {
+  const double area_mm2 = pipeline::surface_area_mm2(plan);
+  for (std::size_t k = 0; k < plan.dips.size(); ++k) {
+    v1::PlanReport::Dip& dip = *out.add_immersions();
+    const pipeline::DipFigures& figures = plan.dips[k].figures;
+    const plan::RegionSize& region = plan.regions.sizes[k];
+    dip.set_depth_mm(figures.depth_mm);
+    dip.set_stopped_at_film_edge(figures.stopped_at_edge);
+    dip.set_reached_share(figures.coverage);
+    dip.set_share(area_mm2 > 0 ? region.area_mm2 / area_mm2 : 0);
+    dip.set_area_mm2(region.area_mm2);
+    dip.set_pieces(region.pieces);
+    set_stretch(stretch_of(plan, prints, static_cast<int>(k) + 1), *dip.mutable_stretch());
+    v1::MapError& error = *dip.mutable_error();
+    if (prints[k].own.error) set_error(*prints[k].own.error, error);
+  }
+}
+
+void set_findings(const pipeline::Plan& plan, const std::vector<pipeline::DipPrint>& prints,
+                  v1::PlanReport& out) {
+  set_mesh(plan.model, *out.mutable_mesh());
+  set_surface(plan.surface, *out.mutable_mesh());
+  add_dips(plan, prints, out);
+  out.set_unreached_share(plan.regions.unreached_share);
+  set_stretch(stretch_of(plan, prints, 0), *out.mutable_stretch());
+  out.set_seam_mm(plan.regions.seam_mm);
+}
+
+class PlanTask final : public ReportTask<v1::PlanReport> {
  public:
-  explicit PlanTask(PlanVerbOptions options) : ArtifactTask("plan"), options_(std::move(options)) {}
+  explicit PlanTask(PlanVerbOptions options) : ReportTask("plan"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override {
     return options_.flow.dip.object.mesh.string();
@@ -132,26 +161,19 @@ class PlanTask final : public ArtifactTask {
     return out;
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
-  [[nodiscard]] Result<std::string> report_text(const Report& report) const override {
-    v1::PlanReport out = report_;
-    set_run(report, out);
-    return json_file_of(out);
-  }
-  [[nodiscard]] Json figures() const override;
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   [[nodiscard]] pipeline::PlanOptions pipeline_options(pipeline::DipOptions dip) const;
   [[nodiscard]] Status write_plan_files(const pipeline::Plan& plan,
-                                        const std::filesystem::path& folder) const;
+                                        const std::filesystem::path& folder);
   [[nodiscard]] Result<std::vector<pipeline::DipPrint>> print_dips(
       const pipeline::Plan& plan, const pipeline::PlanOptions& options,
-      const std::filesystem::path& folder, Report& report, const Context& context) const;
+      const std::filesystem::path& folder, v1::RunFacts& run, const Context& context) const;
 
   PlanVerbOptions options_;
-  v1::PlanReport report_;  ///< its findings, after compute()
 };
 
 pipeline::PlanOptions PlanTask::pipeline_options(pipeline::DipOptions dip) const {
@@ -168,10 +190,8 @@ pipeline::PlanOptions PlanTask::pipeline_options(pipeline::DipOptions dip) const
   return out;
 }
 
-Status PlanTask::write_plan_files(const pipeline::Plan& plan,
-                                  const std::filesystem::path& folder) const {
-  HP_ASSIGN_OR_RETURN(const std::string text, json_file_of(report_.parameters()));
-  HP_RETURN_IF_ERROR(image::write_artifact(folder / "plan.json", text));
+Status PlanTask::write_plan_files(const pipeline::Plan& plan, const std::filesystem::path& folder) {
+  HP_RETURN_IF_ERROR(write_message(folder / "plan.json", *report_.mutable_parameters()));
   return write_plan(folder / "plan.ply", plan);
 }
 
@@ -180,7 +200,7 @@ Status PlanTask::write_plan_files(const pipeline::Plan& plan,
 Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Plan& plan,
                                                              const pipeline::PlanOptions& options,
                                                              const std::filesystem::path& folder,
-                                                             Report& report,
+                                                             v1::RunFacts& run,
                                                              const Context& context) const {
   std::vector<pipeline::DipPrint> out;
   image::LandedInk ink;
@@ -197,8 +217,8 @@ Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Pla
                                      file("mask", images.mask, options.dpi),
                                      file("film", images.film, options.dpi)},
                                     context));
-    report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
-    report.warnings.insert(report.warnings.end(), print.warnings.begin(), print.warnings.end());
+    add_all(names, run.mutable_artifacts());
+    add_warnings(print.warnings, *run.mutable_warnings());
     image::add_ink(print.ink, ink);
     print.images = {};
     print.stretch = {};
@@ -211,43 +231,37 @@ Result<std::vector<pipeline::DipPrint>> PlanTask::print_dips(const pipeline::Pla
       const auto names,
       write_files(folder, {png_file("combined.png", combined, image::kScreenDpi, context)},
                   context));
-  report.artifacts.insert(report.artifacts.end(), names.begin(), names.end());
+  add_all(names, run.mutable_artifacts());
   return out;
 }
 
-Status PlanTask::compute(OutFolder& folder, Report& report, const Context& context) {
-  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, report, context));
+Status PlanTask::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
+  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, run, context));
   HP_RETURN_IF_ERROR(check_film_image(dip.outline, options_.flow.dpi));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   const pipeline::PlanOptions options = pipeline_options(std::move(dip));
   HP_ASSIGN_OR_RETURN(const pipeline::Plan plan, pipeline::make_plan(options, context));
-  report.warnings = options_.pose_warnings;
-  report.warnings.insert(report.warnings.end(), plan.warnings.begin(), plan.warnings.end());
+  add_warnings(options_.pose_warnings, *run.mutable_warnings());
+  add_warnings(plan.warnings, *run.mutable_warnings());
   if (options_.paint.shows_own_colours())
-    HP_RETURN_IF_ERROR(add_material_textures(plan.model, report));
+    HP_RETURN_IF_ERROR(add_material_textures(plan.model, run));
 
   *report_.mutable_parameters() = options_.plan;
-  report_.mutable_parameters()->set_mesh_sha256(report.inputs.front().digest.sha256);
-  set_poses(plan, *report_.mutable_parameters());
+  report_.mutable_parameters()->set_mesh_sha256(run.inputs(0).sha256());
+  for (std::size_t k = 0; k < plan.dips.size(); ++k) {
+    v1::DipSetup& made = *report_.mutable_parameters()->mutable_immersions(static_cast<int>(k));
+    set_pose(plan.dips[k].X_FO, *made.mutable_pose());
+  }
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write_plan_files(plan, folder.partial()));
-  report.artifacts = {"plan.json", "plan.ply"};
-  HP_ASSIGN_OR_RETURN(const auto prints,
-                      print_dips(plan, options, folder.partial(), report, context));
+  for (const char* name : {"plan.json", "plan.ply"}) run.add_artifacts(name);
+  HP_ASSIGN_OR_RETURN(const auto prints, print_dips(plan, options, folder.partial(), run, context));
   set_findings(plan, prints, report_);
   return {};
 }
 
-Json PlanTask::figures() const {
-  Json shares = Json::array();
-  for (const v1::PlanReport::Dip& dip : report_.immersions()) shares.push_back(dip.share());
-  return {{"shares", shares},
-          {"unreached_share", report_.unreached_share()},
-          {"seam_mm", report_.seam_mm()}};
-}
-
-std::string PlanTask::summary(const Report& report, const std::filesystem::path& dir) const {
-  std::string out = artifacts_line(dir, report);
+std::string PlanTask::summary(const std::filesystem::path& dir) const {
+  std::string out = artifacts_line(dir, report_.run());
   for (int k = 0; k < report_.immersions_size(); ++k) {
     const v1::PlanReport::Dip& of_dip = report_.immersions(k);
     out += of_dip.pieces() == 0
@@ -256,7 +270,7 @@ std::string PlanTask::summary(const Report& report, const std::filesystem::path&
                              percent(of_dip.share()), three_digits(of_dip.stretch().max()));
   }
   return out + fmt::format("no dip reaches {} of the surface; {:.1f} s\n",
-                           percent(report_.unreached_share()), report.total_s);
+                           percent(report_.unreached_share()), report_.run().total_seconds());
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -3,7 +3,9 @@
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/image/io/image_file.h"
 #include "sim/pipeline/predict.h"
 #include "sim/worker/common/artifact_task.h"
@@ -35,10 +37,9 @@ Result<PredictOptions> read_options(const v1::PredictSpec& spec, const InputFold
   return out;
 }
 
-class Predict final : public ArtifactTask {
+class Predict final : public ReportTask<v1::PredictReport> {
  public:
-  explicit Predict(PredictOptions options)
-      : ArtifactTask("predict"), options_(std::move(options)) {}
+  explicit Predict(PredictOptions options) : ReportTask("predict"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override {
     return options_.flow.dip.object.mesh.string();
@@ -58,20 +59,15 @@ class Predict final : public ArtifactTask {
             {"motion", options_.motion}};
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return dip_.report(options_.flow, {0, 0}, report.threads);
-  }
-  [[nodiscard]] Json figures() const override { return dip_.figures(); }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override {
-    return dip_.summary(report, dir);
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override {
+    return flow_summary(dir, report_.run(), report_.flow());
   }
 
  private:
   PredictOptions options_;
-  DipFindings dip_;
 };
 
 std::vector<FileTask> files(const pipeline::Prediction& prediction, const Context& context) {
@@ -90,9 +86,9 @@ std::vector<FileTask> files(const pipeline::Prediction& prediction, const Contex
   return out;
 }
 
-Status Predict::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Predict::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   pipeline::PredictOptions options;
-  HP_ASSIGN_OR_RETURN(options.dip, read_flow(options_.flow, report, context));
+  HP_ASSIGN_OR_RETURN(options.dip, read_flow(options_.flow, run, context));
   if (!options_.motion.empty()) {
     HP_ASSIGN_OR_RETURN(options.dip.motion, read_motion(options_.motion));
   }
@@ -103,11 +99,12 @@ Status Predict::compute(OutFolder& folder, Report& report, const Context& contex
   options.ink_passes = options_.flow.passes();
   options.images = !options_.flow.map_only;
   HP_ASSIGN_OR_RETURN(const pipeline::Prediction prediction, pipeline::predict(options, context));
-  dip_ = {options.dip, prediction.model, prediction.dip};
-  report.warnings = prediction.warnings;
+  set_findings(options_.flow, options.dip, prediction.model, prediction.dip, report_);
+  add_warnings(prediction.warnings, *run.mutable_warnings());
   HP_RETURN_IF_ERROR(folder.create());
-  HP_ASSIGN_OR_RETURN(report.artifacts,
+  HP_ASSIGN_OR_RETURN(const auto names,
                       write_files(folder.partial(), files(prediction, context), context));
+  add_all(names, run.mutable_artifacts());
   return {};
 }
 

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "proto/write_json.h"
 #include "sim/base/checked_json.h"
 #include "sim/base/pose_file.h"
@@ -30,6 +32,8 @@
 
 namespace hydroprint::worker {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kExamples =
     R"(For programs: reads the model once, and then one request per line from stdin, such as
@@ -154,17 +158,30 @@ std::string map_bytes(const flow::SurfaceMap& map, std::size_t places) {
   return bytes;
 }
 
+/// Returns a message as a part of an answer.
+Result<Json> json_of(const google::protobuf::Message& message) {
+  HP_ASSIGN_OR_RETURN(const std::string text, json_file_of(message));
+  return Json::parse(text);
+}
+
 Status answer_dip(std::int64_t id, const pipeline::Dip& dip, std::size_t places, double seconds) {
   const pipeline::DipFigures& f = dip.figures;
-  return answer({{"id", id},
-                 {"pose", pose_json(dip.X_FO)},
-                 {"depth_mm", f.depth_mm},
-                 {"coverage", f.coverage},
-                 {"theta_clamped_share", f.clamped_share},
-                 {"stretch", stretch_json(f)},
-                 {"seconds", seconds},
-                 {"warnings", warnings_json(dip.warnings)}},
-                map_bytes(dip.map.surface, places));
+  v1::Pose pose;
+  set_pose(dip.X_FO, pose);
+  Json head = {
+      {"id", id},
+      {"depth_mm", f.depth_mm},
+      {"coverage", f.coverage},
+      {"theta_clamped_share", f.clamped_share},
+      {"stretch", {{"p50", f.stretch_p50}, {"p95", f.stretch_p95}, {"max", f.stretch_max}}},
+      {"seconds", seconds},
+      {"warnings", Json::array()}};
+  HP_ASSIGN_OR_RETURN(head["pose"], json_of(pose));
+  for (const Warning& warning : dip.warnings) {
+    HP_ASSIGN_OR_RETURN(Json entry, json_of(to_message(warning)));
+    head["warnings"].push_back(std::move(entry));
+  }
+  return answer(std::move(head), map_bytes(dip.map.surface, places));
 }
 
 /// Answers with the model for display.
@@ -175,8 +192,8 @@ Status answer_display(const Request& request, const mesh::Model& model, const Co
     if (error.code != Code::kCancelled) error.reason = "INPUT_REFUSED";
     return answer_failure(request.id, error);
   }
-  HP_ASSIGN_OR_RETURN(const std::string summary, json_file_of(shown->summary));
-  return answer({{"id", request.id}, {"summary", Json::parse(summary)}}, shown->glb);
+  HP_ASSIGN_OR_RETURN(Json summary, json_of(shown->summary));
+  return answer({{"id", request.id}, {"summary", std::move(summary)}}, shown->glb);
 }
 
 double seconds_now() {

@@ -15,7 +15,8 @@ namespace hydroprint::worker {
 /// Each answer on stdout is a JSON object on a line, followed by `bytes` bytes of little-endian
 /// data. Each request is answered by
 ///   {"id", "bytes", "pose", "depth_mm", "coverage", "theta_clamped_share", "stretch", "seconds",
-///    "warnings"}: for each place of the model that is shown (display::shown_shape()) four floats,
+///    "warnings"}, each of the latter a v1::Warning: for each place of the model that is shown
+///    (display::shown_shape()) four floats,
 ///   film_x, film_y, contact_time, stretch, as in surface_map.ply: NaN where no film arrives
 /// or by {"id", "bytes": 0, "error": {"code", "reason", "message"}}, with the reason SUPERSEDED if
 /// a newer request came before this one was done, and INPUT_REFUSED if the model's colours cannot

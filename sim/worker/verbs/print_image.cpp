@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/base/artifact_file.h"
 #include "sim/film/outline.h"
 #include "sim/image/io/printer_image.h"
@@ -105,15 +108,16 @@ std::string sheet_name(std::size_t index, std::size_t sheets, const char* extens
 }
 
 Status write_sheets(const print::Print& print, Format format, const std::filesystem::path& folder,
-                    std::vector<std::string>& names, const Context& context) {
+                    v1::RunFacts& run, const Context& context) {
   const auto& pages = print.document.pages;
   const std::string& icc = print.document.icc_profile;
   for (std::size_t i = 0; i < pages.size(); ++i) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     const image::PrinterImage& image = pages[i].images.front().image;
     const bool is_tiff = format == Format::kTiff;
-    names.push_back(sheet_name(i, pages.size(), is_tiff ? ".tif" : ".png"));
-    const std::filesystem::path path = folder / names.back();
+    const std::string name = sheet_name(i, pages.size(), is_tiff ? ".tif" : ".png");
+    run.add_artifacts(name);
+    const std::filesystem::path path = folder / name;
     if (is_tiff) {
       HP_RETURN_IF_ERROR(image::write_tiff(path, image, print.dpi, icc));
       continue;
@@ -125,67 +129,62 @@ Status write_sheets(const print::Print& print, Format format, const std::filesys
 }
 
 Status write_files(const print::Print& print, const std::vector<Format>& formats,
-                   const std::filesystem::path& folder, std::vector<std::string>& names,
-                   const Context& context) {
+                   const std::filesystem::path& folder, v1::RunFacts& run, const Context& context) {
   for (std::size_t i = 0; i < formats.size(); ++i) {
     context.progress("writing", static_cast<double>(i) / static_cast<double>(formats.size() + 1));
     HP_RETURN_IF_ERROR(check_cancelled(context));
     if (formats[i] != Format::kPdf) {
-      HP_RETURN_IF_ERROR(write_sheets(print, formats[i], folder, names, context));
+      HP_RETURN_IF_ERROR(write_sheets(print, formats[i], folder, run, context));
       continue;
     }
     HP_ASSIGN_OR_RETURN(const auto file, print::encode_pdf(print.document, context));
-    names.emplace_back("print.pdf");
-    HP_RETURN_IF_ERROR(image::write_artifact(folder / names.back(), file));
+    run.add_artifacts("print.pdf");
+    HP_RETURN_IF_ERROR(image::write_artifact(folder / "print.pdf", file));
   }
   return {};
 }
 
-Json pixels_json(const print::Pixels& p) { return {p.x0, p.y0, p.x1, p.y1}; }
-
-Json sheet_json(const print::Sheet& sheet) {
-  return {{"column", sheet.column},
-          {"row", sheet.row},
-          {"size_mm", pair_of(sheet.size_mm)},
-          {"low_mm", pair_of(sheet.low_mm)},
-          {"window_px", pixels_json(sheet.window)},
-          {"printable_px", pixels_json(sheet.printable)},
-          {"marks", sheet.drawn},
-          {"marks_dropped", sheet.dropped}};
+void add_pixels(const print::Pixels& pixels, google::protobuf::RepeatedField<std::int32_t>* field) {
+  for (const int px : {pixels.x0, pixels.y0, pixels.x1, pixels.y1}) field->Add(px);
 }
 
-Json print_json(const print::Print& print) {
-  Json sheets = Json::array();
-  for (const print::Sheet& sheet : print.layout.sheets) sheets.push_back(sheet_json(sheet));
-  Json out = {{"dpi", print.dpi},
-              {"pitch_mm", print.layout.pitch_mm},
-              {"colours", print.document.cmyk ? "cmyk" : "rgb"},
-              {"cut_off_mm2", print.cut_off_mm2},
-              {"columns", print.layout.columns},
-              {"rows", print.layout.rows},
-              {"sheets", sheets}};
-  if (print.document.cmyk) {
-    out.update({{"most_ink", print.most_ink}, {"ink_limited_share", print.limited_share}});
-  }
-  return out;
+void set_sheet(const print::Sheet& sheet, v1::PrintImageReport::Sheet& out) {
+  out.set_column(sheet.column);
+  out.set_row(sheet.row);
+  add_all(sheet.size_mm, out.mutable_size_mm());
+  add_all(sheet.low_mm, out.mutable_low_mm());
+  add_pixels(sheet.window, out.mutable_window_px());
+  add_pixels(sheet.printable, out.mutable_printable_px());
+  add_all(sheet.drawn, out.mutable_marks());
+  add_all(sheet.dropped, out.mutable_marks_dropped());
 }
 
-Json parameters_json(const print::PrintSettings& settings, const film::Outline& outline,
-                     int threads) {
-  Json out = page_parameters_json(settings.page, outline, threads);
-  out.update({{"bar_mm", settings.page.bar_mm},
-              {"overlap_mm", settings.page.overlap_mm},
-              {"mirror", settings.page.mirror},
-              {"marks", settings.page.marks},
-              {"icc_profile", settings.colours.icc_profile.string()},
-              {"ink_limit", settings.colours.ink_limit}});
-  return out;
+void set_settings(const print::PrintSettings& settings, v1::PrintImageReport& out) {
+  out.set_bar_mm(settings.page.bar_mm);
+  out.set_overlap_mm(settings.page.overlap_mm);
+  out.set_mirror(settings.page.mirror);
+  out.set_marks(settings.page.marks);
+  out.set_icc_profile(settings.colours.icc_profile.string());
+  out.set_ink_limit(settings.colours.ink_limit);
 }
 
-class PrintImage final : public ArtifactTask {
+void set_print(const print::Print& print, v1::PrintImageReport& out) {
+  out.set_dpi(print.dpi);
+  out.set_pitch_mm(print.layout.pitch_mm);
+  out.set_colours(print.document.cmyk ? v1::COLOURS_CMYK : v1::COLOURS_RGB);
+  out.set_cut_off_mm2(print.cut_off_mm2);
+  out.set_columns(print.layout.columns);
+  out.set_rows(print.layout.rows);
+  for (const print::Sheet& sheet : print.layout.sheets) set_sheet(sheet, *out.add_sheets());
+  if (!print.document.cmyk) return;
+  out.set_most_ink(print.most_ink);
+  out.set_ink_limited_share(print.limited_share);
+}
+
+class PrintImage final : public ReportTask<v1::PrintImageReport> {
  public:
   explicit PrintImage(PrintImageOptions options)
-      : ArtifactTask("print-image"), options_(std::move(options)) {}
+      : ReportTask("print-image"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.film_image.string(); }
   [[nodiscard]] std::string memory_tip() const override { return "a smaller film image"; }
@@ -201,52 +200,46 @@ class PrintImage final : public ArtifactTask {
             {"icc_profile", options_.print.colours.icc_profile}};
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return {{"parameters", parameters_json(options_.print, outline_, report.threads)},
-            {"print", print_json(print_)}};
-  }
-  [[nodiscard]] Json figures() const override {
-    return {{"sheets", print_.layout.sheets.size()}, {"dpi", print_.dpi}};
-  }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   PrintImageOptions options_;
-  film::Outline outline_;
-  print::Print print_;  ///< its pages are cleared once they are written
 };
 
-Status PrintImage::compute(OutFolder& folder, Report& report, const Context& context) {
-  HP_ASSIGN_OR_RETURN(outline_, film::parse_outline(options_.film));
+Status PrintImage::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const film::Outline outline, film::parse_outline(options_.film));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   context.progress("reading", 0);
   HP_ASSIGN_OR_RETURN(const image::RgbImage film_image,
                       print::read_film_image(options_.film_image, context));
-  HP_ASSIGN_OR_RETURN(print_, print::print_image(film_image, options_.film_image.string(), outline_,
-                                                 options_.print, context));
-  const std::vector<Format> formats = formats_of(options_, print_.document.cmyk);
+  HP_ASSIGN_OR_RETURN(const print::Print print,
+                      print::print_image(film_image, options_.film_image.string(), outline,
+                                         options_.print, context));
+  const std::vector<Format> formats = formats_of(options_, print.document.cmyk);
   const bool has_png = std::find(formats.begin(), formats.end(), Format::kPng) != formats.end();
-  if (print_.document.cmyk && has_png) {
+  if (print.document.cmyk && has_png) {
     return fail_field(Code::kInvalidArgument, "formats",
                       "PNG does not support CMYK. Leave png out, or print in RGB");
   }
-  report.warnings = options_.pose_warnings;
-  report.warnings.insert(report.warnings.end(), print_.warnings.begin(), print_.warnings.end());
+  set_page(options_.print.page, outline, *report_.mutable_page());
+  set_settings(options_.print, report_);
+  set_print(print, report_);
+  add_warnings(options_.pose_warnings, *run.mutable_warnings());
+  add_warnings(print.warnings, *run.mutable_warnings());
   HP_RETURN_IF_ERROR(folder.create());
-  HP_RETURN_IF_ERROR(write_files(print_, formats, folder.partial(), report.artifacts, context));
-  print_.document.pages.clear();
-  return {};
+  return write_files(print, formats, folder.partial(), run, context);
 }
 
-std::string PrintImage::summary(const Report& report, const std::filesystem::path& dir) const {
-  const std::size_t sheets = print_.layout.sheets.size();
-  const Eigen::Vector2d& size = print_.layout.sheets.front().size_mm;
+std::string PrintImage::summary(const std::filesystem::path& dir) const {
+  const int sheets = report_.sheets_size();
+  const v1::PrintImageReport::Sheet& first = report_.sheets(0);
   return fmt::format(
       "{}{} sheet{} of {:g} x {:g} mm at {:g} dpi; print at 100 %, without fitting to the page\n",
-      artifacts_line(dir, report), sheets, sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
+      artifacts_line(dir, report_.run()), sheets, sheets > 1 ? "s" : "", first.size_mm(0),
+      first.size_mm(1), report_.dpi());
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/image/io/image_file.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/common/artifact_task.h"
@@ -50,22 +52,22 @@ Result<SimulateOptions> read_options(v1::SimulateSpec spec, const InputFolder& i
   return out;
 }
 
-/// Describes the dip of a plan for report.json.
-Json plan_json(const pipeline::PlanDeviation& deviation, const pipeline::PlanShare& share) {
-  const auto k = static_cast<std::size_t>(share.dip - 1);
-  return {{"immersion", share.dip},
-          {"immersions", share.X_FO.size()},
-          {"planned_pose", pose_json(share.X_FO[k])},
-          {"turn_deg", deviation.turn_rad * 180 / std::numbers::pi},
-          {"shift_mm", pair_of(deviation.shift_mm)},
-          {"lost_share", deviation.lost_share},
-          {"seam_shift_mm", deviation.seam_shift_mm}};
+/// Sets the dip of a plan.
+void set_planned_dip(const pipeline::PlanDeviation& deviation, const pipeline::PlanShare& share,
+                     v1::SimulateReport::PlannedDip& out) {
+  out.set_immersion(share.dip);
+  out.set_immersions(static_cast<std::int32_t>(share.X_FO.size()));
+  set_pose(share.X_FO[static_cast<std::size_t>(share.dip - 1)], *out.mutable_planned_pose());
+  out.set_turn_deg(deviation.turn_rad * 180 / std::numbers::pi);
+  add_all(deviation.shift_mm, out.mutable_shift_mm());
+  out.set_lost_share(deviation.lost_share);
+  out.set_seam_shift_mm(deviation.seam_shift_mm);
 }
 
-class Simulate final : public ArtifactTask {
+class Simulate final : public ReportTask<v1::SimulateReport> {
  public:
   explicit Simulate(SimulateOptions options)
-      : ArtifactTask("simulate"), options_(std::move(options)) {}
+      : ReportTask("simulate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override {
     return options_.flow.dip.object.mesh.string();
@@ -89,32 +91,21 @@ class Simulate final : public ArtifactTask {
     return out;
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    Json out = dip_.report(options_.flow, film_image_px_, report.threads);
-    out["layers"] = layers_json(layers_);
-    if (deviation_) out["plan"] = plan_json(*deviation_, options_.plan.share);
-    return out;
-  }
-  [[nodiscard]] Json figures() const override { return dip_.figures(); }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override {
-    return dip_.summary(report, dir);
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override {
+    return flow_summary(dir, report_.run(), report_.flow());
   }
 
  private:
   [[nodiscard]] bool has_plan() const { return !options_.plan.plan_json.empty(); }
-  [[nodiscard]] Status check_mesh(const Report& report) const;
+  [[nodiscard]] Status check_mesh(const v1::RunFacts& run) const;
   [[nodiscard]] pipeline::SimulateOptions pipeline_options(pipeline::DipOptions dip) const;
   [[nodiscard]] std::vector<FileTask> files(const pipeline::Simulation& simulation,
                                             const Context& context) const;
 
   SimulateOptions options_;
-  DipFindings dip_;
-  std::vector<image::PlacedLayer> layers_;
-  std::optional<pipeline::PlanDeviation> deviation_;
-  std::array<int, 2> film_image_px_ = {0, 0};
 };
 
 pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) const {
@@ -132,8 +123,8 @@ pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) c
 }
 
 /// The hash of the mesh file must be that of the plan's.
-Status Simulate::check_mesh(const Report& report) const {
-  if (!has_plan() || report.inputs.front().digest.sha256 == options_.plan.mesh_sha256) return {};
+Status Simulate::check_mesh(const v1::RunFacts& run) const {
+  if (!has_plan() || run.inputs(0).sha256() == options_.plan.mesh_sha256) return {};
   return fail(
       Code::kInvalidArgument,
       fmt::format("{}: not the mesh of the plan {}. Use the same file, or make another plan",
@@ -162,32 +153,34 @@ std::vector<FileTask> Simulate::files(const pipeline::Simulation& simulation,
   return out;
 }
 
-Status Simulate::compute(OutFolder& folder, Report& report, const Context& context) {
-  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, report, context));
+Status Simulate::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
+  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, run, context));
   if (!options_.flow.map_only) {
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, options_.flow.dpi));
   }
   HP_RETURN_IF_ERROR(check_cancelled(context));
-  HP_RETURN_IF_ERROR(check_mesh(report));
+  HP_RETURN_IF_ERROR(check_mesh(run));
   pipeline::SimulateOptions options = pipeline_options(std::move(dip));
   if (has_plan()) {
     HP_ASSIGN_OR_RETURN(options.share, read_share(options_.plan));
   }
   HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
-  dip_ = {options.dip, simulation.model, simulation.dip};
-  report.warnings = simulation.warnings;
-  const Warnings& pose = options_.flow.dip.object.pose_warnings;
-  report.warnings.insert(report.warnings.begin(), pose.begin(), pose.end());
-  layers_ = simulation.layers;
-  deviation_ = simulation.deviation;
+  set_findings(options_.flow, options.dip, simulation.model, simulation.dip, report_);
+  add_layers(simulation.layers, report_);
+  if (simulation.deviation)
+    set_planned_dip(*simulation.deviation, options_.plan.share, *report_.mutable_plan());
+  add_warnings(options_.flow.dip.object.pose_warnings, *run.mutable_warnings());
+  add_warnings(simulation.warnings, *run.mutable_warnings());
   if (!options_.flow.map_only && options_.paint.shows_own_colours())
-    HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
+    HP_RETURN_IF_ERROR(add_material_textures(simulation.model, run));
   if (simulation.images) {
-    film_image_px_ = {simulation.images->film.width, simulation.images->film.height};
+    report_.mutable_parameters()->add_film_image_px(simulation.images->film.width);
+    report_.mutable_parameters()->add_film_image_px(simulation.images->film.height);
   }
   HP_RETURN_IF_ERROR(folder.create());
-  HP_ASSIGN_OR_RETURN(report.artifacts,
+  HP_ASSIGN_OR_RETURN(const auto names,
                       write_files(folder.partial(), files(simulation, context), context));
+  add_all(names, run.mutable_artifacts());
   return {};
 }
 

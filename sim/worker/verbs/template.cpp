@@ -5,7 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
 #include "sim/base/artifact_file.h"
 #include "sim/film/outline.h"
 #include "sim/mesh/make_surface.h"
@@ -43,14 +45,10 @@ Result<TemplateOptions> read_options(const v1::TemplateSpec& spec, const InputFo
   return out;
 }
 
-void append(Warnings& warnings, const Warnings& more) {
-  warnings.insert(warnings.end(), more.begin(), more.end());
-}
-
-class Template final : public ArtifactTask {
+class Template final : public ReportTask<v1::TemplateReport> {
  public:
   explicit Template(TemplateOptions options)
-      : ArtifactTask("template"), options_(std::move(options)) {}
+      : ReportTask("template"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.object.mesh.string(); }
   [[nodiscard]] std::vector<Stage> stages() const override {
@@ -63,58 +61,48 @@ class Template final : public ArtifactTask {
     return {{"mesh", object.mesh}, {"pose", object.pose_file}, film_file(object.film)};
   }
 
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    Json parameters = page_parameters_json(options_.page, outline_, report.threads);
-    parameters.update({{"scale", options_.object.scale}, {"pose", pose_json(placement_.X_FO)}});
-    return {{"parameters", parameters}, {"mesh", mesh_json(mesh_)}, {"placement", figures()}};
-  }
-  /// Returns where the object first meets the water, in frame F.
-  [[nodiscard]] Json figures() const override {
-    return {{"contact_mm", pair_of(placement_.contact_mm)},
-            {"contact_size_mm", pair_of(placement_.contact_size_mm)},
-            {"contact_depth_mm", print::kFirstContact_mm}};
-  }
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   TemplateOptions options_;
-  film::Outline outline_;
-  MeshSize mesh_;
-  print::Placement placement_;  ///< its pages are cleared once they are written
 };
 
-Status Template::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Template::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   const ObjectOptions& object = options_.object;
-  HP_ASSIGN_OR_RETURN(outline_, film::parse_outline(object.film));
+  HP_ASSIGN_OR_RETURN(const film::Outline outline, film::parse_outline(object.film));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   context.progress("reading", 0);
   HP_ASSIGN_OR_RETURN(const mesh::Model model,
                       mesh::read_model(object.mesh, object.scale, context));
-  mesh_ = {model.vertices.size(), model.triangles.size()};
   // The model's own triangles are fine enough for a drawing.
   HP_ASSIGN_OR_RETURN(const mesh::Surface surface,
                       mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
-  HP_ASSIGN_OR_RETURN(placement_,
-                      print::placement(surface, object.X_FO, outline_, options_.page, context));
-  report.warnings = model.warnings;
-  append(report.warnings, surface.warnings);
-  append(report.warnings, placement_.warnings);
+  HP_ASSIGN_OR_RETURN(const print::Placement placement,
+                      print::placement(surface, object.X_FO, outline, options_.page, context));
+  set_page(options_.page, outline, *report_.mutable_page());
+  report_.set_scale(object.scale);
+  set_pose(placement.X_FO, *report_.mutable_pose());
+  set_mesh(model, *report_.mutable_mesh());
+  add_all(placement.contact_mm, report_.mutable_contact_mm());
+  add_all(placement.contact_size_mm, report_.mutable_contact_size_mm());
+  report_.set_contact_depth_mm(print::kFirstContact_mm);
+  for (const Warnings& warnings : {model.warnings, surface.warnings, placement.warnings})
+    add_warnings(warnings, *run.mutable_warnings());
   context.progress("writing", 0);
-  HP_ASSIGN_OR_RETURN(const auto file, print::encode_pdf(placement_.document, context));
+  HP_ASSIGN_OR_RETURN(const auto file, print::encode_pdf(placement.document, context));
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "placement.pdf", file));
-  report.artifacts = {"placement.pdf"};
-  placement_.document.pages.clear();
+  run.add_artifacts("placement.pdf");
   return {};
 }
 
-std::string Template::summary(const Report& report, const std::filesystem::path& dir) const {
+std::string Template::summary(const std::filesystem::path& dir) const {
   return fmt::format(
       "{}first contact near x {:.2f}, y {:.2f} mm; print at 100 %, without fitting to the page\n",
-      artifacts_line(dir, report), placement_.contact_mm.x(), placement_.contact_mm.y());
+      artifacts_line(dir, report_.run()), report_.contact_mm(0), report_.contact_mm(1));
 }
 
 Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,

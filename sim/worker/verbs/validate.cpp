@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/artifact_file.h"
 #include "sim/image/io/image_file.h"
@@ -15,6 +16,7 @@
 #include "sim/worker/common/artifact_task.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/flags.h"
+#include "sim/worker/common/report_values.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -33,45 +35,46 @@ Result<validate::Options> read_options(const v1::ValidateSpec& spec) {
   return out;
 }
 
-Json limit_json(const validate::Limit& limit) {
+void set_limit(const validate::Limit& limit, v1::ValidateReport::Limit& out) {
   constexpr double kNone = 1e299;
-  Json out = Json::object();
-  if (limit.least > -kNone) out["least"] = limit.least;
-  if (limit.most < kNone) out["most"] = limit.most;
-  out["why"] = limit.why;
-  return out;
+  if (limit.least > -kNone) out.set_least(limit.least);
+  if (limit.most < kNone) out.set_most(limit.most);
+  out.set_why(limit.why);
 }
 
-Json figure_json(const validate::Figure& f) {
-  Json out = {{"name", f.name}, {"text", f.text}, {"unit", f.unit}, {"value", f.value}};
-  if (f.limit) {
-    out["limit"] = limit_json(*f.limit);
-    out["passed"] = f.passes();
+void set_figure(const validate::Figure& figure, v1::ValidateReport::Figure& out) {
+  out.set_name(figure.name);
+  out.set_text(figure.text);
+  out.set_unit(figure.unit);
+  out.set_value(figure.value);
+  if (!figure.limit) return;
+  set_limit(*figure.limit, *out.mutable_limit());
+  out.set_passed(figure.passes());
+}
+
+void set_table(const validate::Table& table, v1::ValidateReport::Table& out) {
+  out.set_caption(table.caption);
+  add_all(table.header, out.mutable_header());
+  for (const auto& row : table.rows) add_all(row, out.add_rows()->mutable_cells());
+}
+
+void set_experiment(const validate::Experiment& experiment, v1::ValidateReport::Experiment& out) {
+  out.set_name(experiment.name);
+  out.set_title(experiment.title);
+  out.set_paper(experiment.paper);
+  for (const validate::Figure& figure : experiment.figures) set_figure(figure, *out.add_figures());
+  for (const validate::Table& table : experiment.tables) set_table(table, *out.add_tables());
+  for (const validate::Picture& picture : experiment.pictures) {
+    v1::ValidateReport::Picture& added = *out.add_pictures();
+    added.set_file(picture.file);
+    added.set_caption(picture.caption);
   }
-  return out;
 }
 
-Json experiment_json(const validate::Experiment& e) {
-  Json figures = Json::array(), tables = Json::array(), pictures = Json::array();
-  for (const auto& f : e.figures) figures.push_back(figure_json(f));
-  for (const auto& t : e.tables) {
-    tables.push_back({{"caption", t.caption}, {"header", t.header}, {"rows", t.rows}});
-  }
-  for (const auto& p : e.pictures) pictures.push_back({{"file", p.file}, {"caption", p.caption}});
-  return {{"name", e.name},     {"title", e.title}, {"paper", e.paper},
-          {"figures", figures}, {"tables", tables}, {"pictures", pictures}};
-}
-
-Json experiments_json(const validate::Report& report) {
-  Json out = Json::array();
-  for (const validate::Experiment& e : report.experiments) out.push_back(experiment_json(e));
-  return out;
-}
-
-class Validate final : public ArtifactTask {
+class Validate final : public ReportTask<v1::ValidateReport> {
  public:
   explicit Validate(validate::Options options)
-      : ArtifactTask("validate"), options_(std::move(options)) {}
+      : ReportTask("validate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return "validate"; }
   [[nodiscard]] std::string memory_tip() const override { return "--quick"; }
@@ -82,21 +85,11 @@ class Validate final : public ArtifactTask {
   [[nodiscard]] std::vector<InputPath> input_files() const override { return {}; }
 
   /// Writes pictures as they are finished and report.html at the end.
-  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+  [[nodiscard]] Status compute(OutFolder& folder, v1::RunFacts& run,
+                               const Context& context) override;
 
-  [[nodiscard]] Json findings(const Report& report) const override {
-    return {{"parameters",
-             {{"only", options_.only}, {"quick", options_.quick}, {"threads", report.threads}}},
-            {"passed", validation_.passed},
-            {"failed", validation_.failed},
-            {"experiments", experiments_json(validation_)}};
-  }
-  [[nodiscard]] Json figures() const override {
-    return {{"passed", validation_.passed}, {"failed", validation_.failed}};
-  }
   /// Returns one line for the whole run, and one for each figure beyond its limit.
-  [[nodiscard]] std::string summary(const Report& report,
-                                    const std::filesystem::path& dir) const override;
+  [[nodiscard]] std::string summary(const std::filesystem::path& dir) const override;
 
  private:
   validate::Options options_;
@@ -115,21 +108,27 @@ std::vector<Stage> Validate::stages() const {
   return out;
 }
 
-Status Validate::compute(OutFolder& folder, Report& report, const Context& context) {
+Status Validate::compute(OutFolder& folder, v1::RunFacts& run, const Context& context) {
   HP_RETURN_IF_ERROR(check_cancelled(context));
   HP_RETURN_IF_ERROR(folder.create());
   const auto write_picture = [&](const std::string& file, const image::RgbImage& picture) {
-    report.artifacts.push_back(file);
+    run.add_artifacts(file);
     return image::write_png(folder.partial() / file, picture, image::kScreenDpi);
   };
   HP_ASSIGN_OR_RETURN(validation_, validate::validate(options_, write_picture, context));
   context.progress("writing", 0);
-  report.artifacts.emplace_back("report.html");
+  add_all(options_.only, report_.mutable_only());
+  report_.set_quick(options_.quick);
+  report_.set_passed(validation_.passed);
+  report_.set_failed(validation_.failed);
+  for (const validate::Experiment& experiment : validation_.experiments)
+    set_experiment(experiment, *report_.add_experiments());
+  run.add_artifacts("report.html");
   return image::write_artifact(folder.partial() / "report.html",
                                validate::report_html(validation_, HYDROPRINT_VERSION));
 }
 
-std::string Validate::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
+std::string Validate::summary(const std::filesystem::path& dir) const {
   std::string out =
       fmt::format("{}/report.html: {} of {} figures are within their limits\n", dir.string(),
                   validation_.passed, validation_.passed + validation_.failed);

@@ -100,7 +100,7 @@ TEST_F(Api, WorkerReceivesTheSpec) {
   for (const double x : {3, 4, 5}) spec.mutable_pose()->add_translation_mm(x);
   const v1::Job job = client.wait_for_end(make(request).name());
   const std::string report = client.download(job.name() + "/artifacts/report.json");
-  for (const char* flag : {"simulate\n", "--threads=1\n", "--inputs=.\n"}) {
+  for (const char* flag : {"simulate ", "--threads=1 ", "--inputs=. "}) {
     EXPECT_NE(report.find(flag), std::string::npos) << report;
   }
   const auto given = given_spec(report);

@@ -154,7 +154,9 @@ TEST_F(CalibrateApi, CalibrationHoldsThePoseAndTheAxisPosition) {
   EXPECT_EQ(found.markers(1).why_not(), "hidden");
   EXPECT_EQ(found.from_nominal_pose(0), "turn");
   ASSERT_EQ(found.warnings_size(), 1);
-  EXPECT_TRUE(has(found.warnings(0), "from the nominal pose: turn")) << found.warnings(0);
+  EXPECT_TRUE(has(found.warnings(0).message(), "from the nominal pose: turn"));
+  EXPECT_EQ(found.warnings(0).code(), v1::Warning::POSE_UNCONSTRAINED);
+  EXPECT_EQ(found.warnings(0).where().resource(), found.name());
   EXPECT_EQ(found.symmetries(0), "any turn");
   EXPECT_EQ(found.water_z_mm(), 0.25);
   EXPECT_NEAR(found.axis_mm(), kAxis_mm, 0.2);
@@ -311,7 +313,7 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   wanted.mutable_dip()->set_calibration("calibrations/active");
   const v1::Job job = create(wanted);
   EXPECT_EQ(job.dip().calibration(), found.name());
-  EXPECT_TRUE(has(job.dip_status().warnings(0), "from the nominal pose: turn"));
+  EXPECT_TRUE(has(job.dip_status().warnings(0).message(), "from the nominal pose: turn"));
   EXPECT_TRUE(has(job.dip_status().instruction(), "accept a misplaced print"))
       << job.dip_status().instruction();
   const v1::Job waiting = ann->guide_to(job.name(), v1::DipStatus::FIND_CONTACT);
@@ -333,7 +335,7 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   EXPECT_EQ(refusal(simulate_by(found.name())).metadata().at("why"), "DIPPED");
   wanted.mutable_dip()->set_allow_stale_calibration(true);
   const v1::Job told = create(wanted);
-  EXPECT_TRUE(has(told.dip_status().warnings(0), "dipped")) << told.ShortDebugString();
+  EXPECT_TRUE(has(told.dip_status().warnings(0).message(), "dipped")) << told.ShortDebugString();
   const v1::Job looks = ann->guide_to(told.name(), v1::DipStatus::FIND_CONTACT);
   EXPECT_TRUE(has(looks.dip_status().instruction(), "jog down"))
       << "with a stale calibration, the operator has to find first contact";

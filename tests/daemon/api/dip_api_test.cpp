@@ -111,7 +111,7 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
   const auto report = ann.report(name);
   EXPECT_EQ(report.at("outcome"), "SUCCEEDED");
   EXPECT_EQ(report.at("lease_holder"), "ann");
-  EXPECT_EQ(report.at("water_temperature_c"), 25.5);
+  EXPECT_EQ(report.at("parameters").at("water_temperature_c"), 25.5);
   EXPECT_NEAR(report.at("depth_reached_mm"), 12, 0.1);
   EXPECT_NEAR(report.at("descent").at("speed_mm_per_s"), 10, 0.01);
   EXPECT_LT(report.at("descent").at("largest_deviation_share"), 0.02);
@@ -243,7 +243,7 @@ TEST_F(DipApi, LateFilmIsDippedWithAWarning) {
   EXPECT_EQ(late.dip_status().step(), v1::DipStatus::START_DIP);
   EXPECT_TRUE(ann.confirm(name, v1::DipStatus::START_DIP).ok());
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
-  EXPECT_EQ(ann.report(name).at("warnings").at(0).at("code"), "film_late");
+  EXPECT_EQ(ann.report(name).at("run").at("warnings").at(0).at("code"), "FILM_LATE");
 }
 
 TEST_F(DipApi, CancelAtAnyStepGivesAdviceAndKeepsTheRecord) {

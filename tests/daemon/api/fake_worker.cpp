@@ -7,23 +7,26 @@
 //   crash           aborts
 //   eat             allocates 64 GiB of memory, 16 MiB at a time
 //   huge            writes a file of 64 MiB
-//   fill            writes a file until the disk is full
+//   fill            writes a small report, and then a file until the disk is full
 //   many            writes 900 empty files with long names
 //   nothing         writes no artifacts
 //   link            writes a symbolic link as artifact
 //   garbage         writes a malformed calibration
+//   report WHAT     writes a report that is "garbage", "missing" or "large", or has a "type",
+//                   an "enum" value or a "nan" that is not allowed
 //   babble          writes nonsense as progress
 //   orphan          leaves a child process behind
 //   socket          reports whether it could open a socket
 //   kill-parent     reports whether it could kill the daemon
 //   hurry           reports whether it could raise its priority
-//   warn WORDS      makes report.json an object with this warning
+//   warn WORDS      adds this warning to the report
 //   read FILE       reports whether it could read the file
 //   write FILE      reports whether it could write the file
 //
-// After the commands it writes film.png, and report.json, which ends with the spec. print-image
-// writes print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera
-// write a calibration and spec.json.
+// After the commands it writes film.png, and report.json, whose program is the command line, whose
+// version is what the commands reported, and whose only input is the spec. print-image writes
+// print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera write a
+// calibration and spec.json.
 
 #include <sched.h>
 #include <signal.h>
@@ -50,6 +53,7 @@ std::map<std::string, std::string> flags;
 nlohmann::json spec;
 std::string facts;
 std::string warning;
+std::string fault;  // of the report
 bool is_garbage = false;
 
 /// Name of a file from the spec; empty if there is none.
@@ -128,6 +132,8 @@ void execute(const std::string& line) {
     std::_Exit(status);
   } else if (command == "warn") {
     std::getline(words >> std::ws, warning);
+  } else if (command == "report") {
+    words >> fault;
   } else if (command == "crash") {
     std::abort();
   } else if (command == "eat") {
@@ -140,6 +146,8 @@ void execute(const std::string& line) {
   } else if (command == "huge") {
     std::ofstream(flags["--out"] + "/huge") << std::string(64 << 20, 'x') << std::flush;
   } else if (command == "fill") {
+    std::ofstream(flags["--out"] + "/report.json") << "{}";
+    fault = "missing";  // later there is no space for it
     std::ofstream file(flags["--out"] + "/fill");
     while (file << std::string(4096, 'x') << std::flush) {
     }
@@ -190,33 +198,41 @@ void execute(const std::string& line) {
   }
 }
 
-void calibrate() {
+/// Writes report.json with the fault that a command asked for.
+void write_report(const nlohmann::json& report) {
+  if (fault == "missing") return;
+  nlohmann::json faulty = report;
+  if (fault == "type") faulty["run"]["threads"] = "many";
+  if (fault == "enum") faulty["run"]["warnings"] = {{{"code", "MADE_UP"}}};
+  if (fault == "nan") faulty["run"]["total_seconds"] = "NaN";
+  if (fault == "large") faulty["run"]["version"] = std::string(10 << 20, 'x');
+  std::ofstream(flags["--out"] + "/report.json") << (fault == "garbage" ? "{" : faulty.dump());
+}
+
+void calibrate(bool is_camera) {
   const std::string out = flags["--out"];
   std::ofstream(out + "/spec.json") << spec;
-  std::ofstream(out + "/camera.json") << R"({"views":12,"rms_mm":0.7})";
+  std::ofstream(out + "/camera.json") << "{}";
   std::ofstream(out + "/alignment.png") << "picture of " << file_of("mesh");
-  std::string row = "[1,0,0,0,0,0]", rows = row;
-  for (int i = 1; i < 6; ++i) rows += "," + row;
-  std::ofstream file(out + "/calibration.json");
-  if (is_garbage) {
-    file << R"({"pose":{"rotation_wxyz":[1,0,0,"x"]}})";
-    return;
-  }
-  file << R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[3,-2,40]},"uncertainty":{)"
-       << R"("about_mm":[0,0,40],"covariance_turn_rad_shift_mm":[)" << rows
-       << R"(],"error_p50_mm":0.2,"error_p95_mm":0.4,"error_max_mm":0.5},)"
-       << R"("from_nominal_pose":["turn"],"symmetries":["any turn"],"film_frame":{"markers":[)"
-       << R"({"name":"left","used":true,"rms_mm":0.3,"residual_mm":0.1},)"
-       << R"({"name":"near","used":false,"why_not":"hidden"}]},)"
-       << R"("water":{"z_mm":0.25,"sigma_mm":0.1},"height_mm":10.5})";
+  if (is_camera) return write_report({{"views", 12}, {"rms_mm", 0.7}});
+  nlohmann::json calibration = nlohmann::json::parse(
+      R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[3,-2,40]},"uncertainty":{)"
+      R"("about_mm":[0,0,40],"error_p50_mm":0.2,"error_p95_mm":0.4,"error_max_mm":0.5},)"
+      R"("from_nominal_pose":["turn"],"symmetries":["any turn"],"film_frame":{"markers":[)"
+      R"({"name":"left","used":true,"rms_mm":0.3,"residual_mm":0.1},)"
+      R"({"name":"near","used":false,"why_not":"hidden"}]},)"
+      R"("water":{"z_mm":0.25,"sigma_mm":0.1},"height_mm":10.5})");
+  for (int i = 0; i < 36; ++i)
+    calibration["uncertainty"]["covariance_turn_rad_shift_mm"].push_back(i % 6 == 0 ? 1 : 0);
+  if (is_garbage) calibration["pose"]["rotation_wxyz"] = {1, 1, 0, 0};
+  write_report({{"calibration", calibration}});
 }
 
 void print_image() {
   const std::string out = flags["--out"];
   std::ofstream(out + "/print.pdf") << "%PDF of " << std::ifstream(file_of("filmImage")).rdbuf();
   std::ofstream(out + "/spec.json") << spec;
-  std::ofstream(out + "/report.json")
-      << R"({"parameters":{"printer_margin_mm":0},"print":{"sheets":[{"size_mm":[297,210]}]}})";
+  write_report({{"page", {{"printer_margin_mm", 0}}}, {"sheets", {{{"size_mm", {297, 210}}}}}});
 }
 
 void answer(const std::string& head, const std::string& bytes) {
@@ -241,8 +257,9 @@ void preview() {
         answer(head + R"(,"error":{"code":"NOT_FOUND","reason":"INPUT_REFUSED","message":"m.png"})",
                "");
       } else {
-        answer(head + R"(,"summary":{"format":"OBJ","shown_triangles":3,)"
-                      R"("warnings":[{"code":"FAR_FROM_ORIGIN","message":"m","where":"w"}]})",
+        answer(head +
+                   R"(,"summary":{"format":"OBJ","shown_triangles":3,)"
+                   R"("warnings":[{"code":"FAR_FROM_ORIGIN","message":"m","where":{"item":"w"}}]})",
                "glTF" + std::to_string(getpid()));
       }
       continue;
@@ -251,7 +268,8 @@ void preview() {
                R"(,"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[0,0,0]},"coverage":0.5,)"
                R"("theta_clamped_share":null,"stretch":{"p50":1,"p95":2,"max":null},"seconds":0.1,)"
                R"("depth_mm":)" +
-               std::to_string(getpid()) + R"(,"warnings":[{"code":"c","message":"m","where":"w"}])",
+               std::to_string(getpid()) +
+               R"(,"warnings":[{"code":"FILM_TORN","message":"m","where":{"item":"w"}}])",
            std::string(16, 'm'));
   }
 }
@@ -277,21 +295,24 @@ int main(int argc, char** argv) {
     preview();
     return 0;
   }
-  if (std::string(argv[1]).starts_with("calibrate")) {
-    calibrate();
+  const std::string verb = argv[1];
+  if (verb.starts_with("calibrate")) {
+    calibrate(verb == "calibrate-camera");
     return 0;
   }
-  if (std::string(argv[1]) == "print-image") {
+  if (verb == "print-image") {
     print_image();
     return 0;
   }
   std::ofstream(flags["--out"] + "/film.png") << "film of " << file_of("mesh");
-  std::ofstream report(flags["--out"] + "/report.json");
-  if (!warning.empty()) {
-    report << nlohmann::json{
-        {"warnings", {{{"code", "fake"}, {"message", warning}, {"where", "here"}}}}};
-    return 0;
-  }
-  for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
-  report << facts << '\n' << spec << '\n';
+  std::string line;
+  for (int i = 1; i < argc; ++i) line += std::string(argv[i]) + ' ';
+  nlohmann::json run = {{"program", line},
+                        {"version", facts},
+                        {"verb", verb},
+                        {"inputs", {{{"role", "spec"}, {"path", spec.dump()}}}}};
+  if (!warning.empty())
+    run["warnings"] = {
+        {{"code", "FILM_TORN"}, {"message", warning}, {"where", {{"surface", true}}}}};
+  write_report({{"run", run}});
 }

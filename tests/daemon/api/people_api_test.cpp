@@ -68,6 +68,13 @@ grpc::Status download(Client& client, const std::string& name) {
   return reader->Finish();
 }
 
+grpc::Status report(Client& client, const std::string& name) {
+  v1::GetJobReportRequest request;
+  request.set_name(name);
+  v1::JobReport reply;
+  return client.jobs->GetJobReport(client.context().get(), request, &reply);
+}
+
 std::vector<v1::AuditEntry> audit(Client& client, const std::string& what) {
   v1::ListAuditRequest request;
   request.set_what(what);
@@ -93,6 +100,7 @@ TEST_F(PeopleApi, ResultsAreVisibleToOwnerAndOperatorsUnlessShared) {
     const auto client = as(user);
     EXPECT_TRUE(list_artifacts(*client, name).ok()) << user;
     EXPECT_TRUE(download(*client, film).ok()) << user;
+    EXPECT_TRUE(report(*client, name).ok()) << user;
     EXPECT_EQ(get(*client, name).simulate().mesh().name(), "m.obj") << user;
   }
   for (const char* const user : {"other", "viewer"}) {
@@ -100,6 +108,7 @@ TEST_F(PeopleApi, ResultsAreVisibleToOwnerAndOperatorsUnlessShared) {
     expect_refusal(list_artifacts(*client, name), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     expect_refusal(get_artifact(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     expect_refusal(download(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
+    expect_refusal(report(*client, name), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     const v1::Job seen = get(*client, name);
     EXPECT_EQ(seen.owner(), "maker");  // every user may see the owners of jobs
     EXPECT_TRUE(seen.has_simulate());
@@ -110,6 +119,7 @@ TEST_F(PeopleApi, ResultsAreVisibleToOwnerAndOperatorsUnlessShared) {
     const auto client = as(user);
     EXPECT_TRUE(list_artifacts(*client, name).ok()) << user;
     EXPECT_TRUE(download(*client, film).ok()) << user;
+    EXPECT_TRUE(report(*client, name).ok()) << user;
     EXPECT_EQ(get(*client, name).simulate().mesh().name(), "m.obj") << user;
   }
   ASSERT_TRUE(share(*maker, name, false).ok());

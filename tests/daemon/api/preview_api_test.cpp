@@ -85,7 +85,7 @@ TEST_F(Previews, ReadModelsInTheSameWorker) {
   EXPECT_EQ(model.summary().format(), "OBJ");
   EXPECT_EQ(model.summary().shown_triangles(), 3);
   ASSERT_EQ(model.summary().warnings_size(), 1);
-  EXPECT_EQ(model.summary().warnings(0).code(), v1::ReportWarning::FAR_FROM_ORIGIN);
+  EXPECT_EQ(model.summary().warnings(0).code(), v1::Warning::FAR_FROM_ORIGIN);
   v1::Preview dip;
   ASSERT_TRUE(preview("a", dip).ok());
   EXPECT_EQ(model.glb(), "glTF" + std::to_string(static_cast<long>(dip.depth_mm())))

@@ -58,9 +58,9 @@ Ended run_daemon(std::vector<std::string> arguments) {
 }
 
 nlohmann::json given_spec(const std::string& report) {
-  const std::size_t begin = report.find('{');
-  return begin == std::string::npos ? nlohmann::json()
-                                    : nlohmann::json::parse(report.substr(begin));
+  const auto json = nlohmann::json::parse(report);
+  const nlohmann::json::json_pointer spec("/run/inputs/0/path");
+  return json.contains(spec) ? nlohmann::json::parse(json[spec].get<std::string>()) : json;
 }
 
 google::rpc::ErrorInfo error_info(const grpc::Status& status) {

@@ -67,6 +67,44 @@ TEST_F(Workers, EachKindOfFailureHasItsError) {
   expect_failed("link", grpc::INTERNAL, "WORKER_UNUSABLE");
 }
 
+TEST_F(Workers, UnusableReportFailsItsJobAndTheDaemonGoesOn) {
+  start(DaemonProcess::fake());
+  for (const auto& [fault, words] :
+       std::vector<std::pair<std::string, std::string>>{{"garbage", "report.json, line 1"},
+                                                        {"type", "run.threads"},
+                                                        {"enum", "MADE_UP"},
+                                                        {"nan", "must be a finite number"},
+                                                        {"large", "larger than 4 MiB"},
+                                                        {"missing", "missing"}}) {
+    const v1::Job job = run("report " + fault);
+    EXPECT_EQ(job.state(), v1::Job::FAILED) << fault;
+    EXPECT_EQ(job.error().reason(), "WORKER_UNUSABLE") << fault;
+    EXPECT_NE(job.error().message().find(words), std::string::npos) << job.error().message();
+  }
+  EXPECT_EQ(run("# nothing wrong").state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(Workers, ReportIsReturnedAsAMessage) {
+  start(DaemonProcess::fake());
+  const v1::Job job = run("warn it tears");
+  v1::GetJobReportRequest request;
+  v1::JobReport report;
+  const auto ask = [&] {
+    return client->jobs->GetJobReport(client->context().get(), request, &report);
+  };
+  request.set_name(job.name());
+  ASSERT_TRUE(ask().ok());
+  EXPECT_EQ(report.simulate().run().verb(), "simulate");
+  ASSERT_EQ(report.simulate().run().warnings_size(), 1);
+  EXPECT_EQ(report.simulate().run().warnings(0).code(), v1::Warning::FILM_TORN);
+  EXPECT_TRUE(report.simulate().run().warnings(0).where().surface());
+  const auto file = daemon->state() / "artifacts" / job.name().substr(5) / "report.json";
+  std::ofstream(file) << "damaged";
+  EXPECT_EQ(error_info(ask()).reason(), "ARTIFACT_DAMAGED");
+  request.set_name(run("exit 4 broken").name());
+  EXPECT_EQ(error_info(ask()).reason(), "ARTIFACT_NOT_FOUND");
+}
+
 TEST_F(Workers, KilledWorkerFailsOnlyItsJob) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
@@ -379,7 +417,7 @@ TEST_F(RealPlan, CalibratedDipIsComputedForTheMeasuredPose) {
   const v1::PlanProgress now = progress(plan.name());
   EXPECT_EQ(now.next_immersion(), 2);
   ASSERT_GT(now.dips(1).warnings_size(), 0) << "before anything is printed";
-  EXPECT_NE(now.dips(1).warnings(0).find("turned by 8.0 degrees"), std::string::npos);
+  EXPECT_NE(now.dips(1).warnings(0).message().find("turned by 8.0 degrees"), std::string::npos);
   EXPECT_EQ(now.dips(0).calibration(), "") << "the object hangs as for dip 2";
 
   (void)enter_calibration({1, 0, 0, 0}, 2);

@@ -2,29 +2,35 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
+#include <functional>
 #include <numbers>
 
 #include "daemon/platform/resource_names.h"
+#include "hydroprint/v1/report.pb.h"
 #include "hydroprint/v1/spec.pb.h"
+#include "proto/warning_message.h"
+#include "proto/write_json.h"
 #include "tests/daemon/store/store_fixture.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-using nlohmann::json;
-
-json report() {
-  return {{"depth_mm", 42.5},
-          {"parameters",
-           {{"dip_speed_mm_per_s", 4},
-            {"depth_mm", "full"},
-            {"film", {{"name", "A4"}, {"min_mm", {-105, -148.5}}, {"max_mm", {105, 148.5}}}},
-            {"profile", {{"activator_ml_per_m2", 18}, {"soak_s", 70}, {"activator_wait_s", 15}}}}}};
+v1::SimulateReport report() {
+  v1::SimulateReport out;
+  out.mutable_flow()->set_depth_mm(42.5);
+  v1::DipFacts& dip = *out.mutable_parameters()->mutable_dip();
+  dip.set_dip_speed_mm_per_s(4);
+  dip.mutable_film()->set_name("A4");
+  for (const double x : {-105.0, -148.5}) dip.mutable_film()->add_min_mm(x);
+  for (const double x : {105.0, 148.5}) dip.mutable_film()->add_max_mm(x);
+  dip.mutable_profile()->set_activator_ml_per_m2(18);
+  dip.mutable_profile()->set_soak_s(70);
+  dip.mutable_profile()->set_activator_wait_s(15);
+  return out;
 }
 
 TEST(SimulatedDip, ValuesComeFromTheReport) {
-  const auto dip = read_simulated_dip(report().dump());
+  const auto dip = read_simulated_dip(report());
   ASSERT_TRUE(dip) << dip.error().message;
   EXPECT_EQ(dip->depth_mm, 42.5);
   EXPECT_EQ(dip->speed_mm_per_s, 4);
@@ -32,53 +38,56 @@ TEST(SimulatedDip, ValuesComeFromTheReport) {
   EXPECT_EQ(dip->activator_ml_per_m2, 18);
   EXPECT_EQ(dip->soak_s, 70);
   EXPECT_EQ(dip->activator_wait_s, 15);
-  json round = report();
-  round["parameters"]["film"] = {
-      {"name", "circle:100"}, {"min_mm", {-100, -100}}, {"max_mm", {100, 100}}};
-  EXPECT_NEAR(read_simulated_dip(round.dump())->film_area_mm2, std::numbers::pi * 1e4, 1e-6);
+  v1::SimulateReport round = report();
+  v1::FilmFacts& film = *round.mutable_parameters()->mutable_dip()->mutable_film();
+  film.Clear();
+  film.set_name("circle:100");
+  for (int i = 0; i < 2; ++i) {
+    film.add_min_mm(-100);
+    film.add_max_mm(100);
+  }
+  EXPECT_NEAR(read_simulated_dip(round)->film_area_mm2, std::numbers::pi * 1e4, 1e-6);
 }
 
 TEST(SimulatedDip, DipOfAPlanHasItsNumberAndWarnings) {
-  json planned = report();
-  planned["plan"] = {{"immersion", 2}, {"immersions", 3}};
-  planned["warnings"] = {
-      {{"code", "plan_pose_off"}, {"message", "turned"}, {"where", "dip 2"}},
-      {{"code", "film_torn"}, {"message", "torn"}, {"where", "surface"}},
-      {{"code", 7}, {"message", "wrong"}},
-      "wrong",
-  };
-  const auto dip = read_simulated_dip(planned.dump());
+  v1::SimulateReport planned = report();
+  planned.mutable_plan()->set_immersion(2);
+  planned.mutable_plan()->set_immersions(3);
+  add_warnings({{WarningCode::PLAN_POSE_OFF, "turned", {{}, 2}},
+                {WarningCode::FILM_TORN, "torn", {OnSurface{}}}},
+               *planned.mutable_run()->mutable_warnings());
+  const auto dip = read_simulated_dip(planned);
   ASSERT_TRUE(dip) << dip.error().message;
   EXPECT_EQ(dip->immersion, 2);
   EXPECT_EQ(dip->immersions, 3);
   ASSERT_EQ(dip->warnings.size(), 1U);
   EXPECT_EQ(dip->warnings[0].message, "turned");
-  EXPECT_EQ(read_simulated_dip(report().dump())->immersion, 0);
-  planned["plan"]["immersion"] = 99;
-  EXPECT_FALSE(read_simulated_dip(planned.dump()));
+  EXPECT_EQ(dip->warnings[0].where.dip, 2);
+  EXPECT_EQ(read_simulated_dip(report())->immersion, 0);
+  planned.mutable_plan()->set_immersion(99);
+  EXPECT_FALSE(read_simulated_dip(planned));
 }
 
-TEST(SimulatedDip, InvalidReportsAreRefused) {
-  for (const char* text : {"", "{", "[]", "7", "{\"depth_mm\":\"full\"}"}) {
-    EXPECT_FALSE(read_simulated_dip(text)) << text;
-  }
-  const auto refused = [](const char* pointer, const json& value) {
-    json changed = report();
-    changed[json::json_pointer(pointer)] = value;
-    const auto dip = read_simulated_dip(changed.dump());
-    EXPECT_FALSE(dip) << pointer << ' ' << value;
-    if (dip) return;
-    EXPECT_NE(dip.error().message.find(pointer), std::string::npos);
+TEST(SimulatedDip, ValuesOutOfRangeAreRefusedByName) {
+  EXPECT_FALSE(read_simulated_dip(v1::SimulateReport()));
+  const auto refusal = [](const std::function<void(v1::SimulateReport&)>& change) {
+    v1::SimulateReport changed = report();
+    change(changed);
+    const auto dip = read_simulated_dip(changed);
+    return dip ? "taken" : dip.error().message;
   };
-  refused("/depth_mm", -1);
-  refused("/depth_mm", 1e300);
-  refused("/depth_mm", nullptr);
-  refused("/parameters/dip_speed_mm_per_s", "5");
-  refused("/parameters/profile/soak_s", 1e9);
-  refused("/parameters/film/min_mm/0", json::object());
-  json deep = report();
-  deep["parameters"]["film"] = 3;
-  EXPECT_FALSE(read_simulated_dip(deep.dump()));
+  for (const double depth_mm : {-1.0, 0.0, 1e300}) {
+    const auto deep = [&](auto& changed) { changed.mutable_flow()->set_depth_mm(depth_mm); };
+    EXPECT_NE(refusal(deep).find("depth_mm"), std::string::npos);
+  }
+  const auto soaks = [](auto& changed) {
+    changed.mutable_parameters()->mutable_dip()->mutable_profile()->set_soak_s(1e9);
+  };
+  EXPECT_NE(refusal(soaks).find("soak_s"), std::string::npos);
+  const auto bare = [](auto& changed) {
+    changed.mutable_parameters()->mutable_dip()->clear_film();
+  };
+  EXPECT_NE(refusal(bare).find("film"), std::string::npos);
 }
 
 class DipPlanOfJob : public StoreTest {
@@ -95,7 +104,7 @@ class DipPlanOfJob : public StoreTest {
 
 TEST_F(DipPlanOfJob, SpecOverridesSimulationWhichOverridesDefaults) {
   v1::DipSpec spec;
-  spec.set_simulate_job(simulate(report().dump()));
+  spec.set_simulate_job(simulate(*json_file_of(report())));
   auto plan = plan_of(spec, *jobs, layout);
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_EQ(plan->depth_mm, 42.5);
@@ -109,7 +118,7 @@ TEST_F(DipPlanOfJob, SpecOverridesSimulationWhichOverridesDefaults) {
   plan = plan_of(spec, *jobs, layout);
   EXPECT_EQ(plan->depth_mm, 50);
   EXPECT_EQ(plan->clocks.soak_s, 5);
-  EXPECT_EQ(plan->warnings.at(0).code, "deeper_than_simulated");
+  EXPECT_EQ(plan->warnings.at(0).code, WarningCode::DEEPER_THAN_SIMULATED);
 }
 
 TEST_F(DipPlanOfJob, SimulationMustHaveSucceeded) {

@@ -4,16 +4,14 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "proto/write_json.h"
 #include "sim/base/input_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::dip {
 namespace {
-
-using nlohmann::json;
 
 rig::Sample sample(double time_s, double position_mm) {
   rig::Sample out;
@@ -61,41 +59,34 @@ Facts facts() {
   out.stand.step = Step::kSoak;
   out.stand.contact_mm = 40;
   out.steps = {{Step::kLayFilm, 10, 12, {}, "ann"}, {Step::kSoak, 12, {}, 60, ""}};
-  out.warnings = {{"film_late", "late", "START_DIP"}};
+  out.warnings = {{WarningCode::FILM_LATE, "late", {OfItem{"START_DIP"}}}};
   return out;
 }
 
 TEST(DipRecord, ReportHasPlannedAndActualValues) {
-  const json report = json::parse(report_json(facts()));
-  EXPECT_EQ(report.at("verb"), "dip");
-  EXPECT_EQ(report.at("simulate_job"), "jobs/3");
-  EXPECT_EQ(report.at("water_temperature_c"), 25);
-  EXPECT_EQ(report.at("axis").at("contact_mm"), 40);
-  EXPECT_EQ(report.at("parameters").at("depth_mm"), 20);
-  EXPECT_TRUE(report.at("descent").is_null());
-  const json& steps = report.at("steps");
-  EXPECT_EQ(steps.at(0).at("confirmed_by"), "ann");
-  EXPECT_EQ(steps.at(0).at("actual_s"), 2);
-  EXPECT_EQ(steps.at(1).at("planned_s"), 60);
-  EXPECT_TRUE(steps.at(1).at("end_s").is_null());
-  EXPECT_EQ(report.at("warnings").at(0).at("code"), "film_late");
-}
-
-TEST(DipRecord, ReportOfALostDaemonIsInterrupted) {
-  const json report = json::parse(interrupted_report(report_json(facts()), "lost"));
-  EXPECT_EQ(report.at("outcome"), "INTERRUPTED");
-  EXPECT_EQ(report.at("message"), "lost");
-  EXPECT_EQ(report.at("step"), "SOAK");
-  EXPECT_EQ(interrupted_report("{\"half", "lost"), "{\"half");
+  const v1::DipReport report = report_of(facts());
+  EXPECT_EQ(report.run().verb(), "dip");
+  EXPECT_EQ(report.simulate_job(), "jobs/3");
+  EXPECT_EQ(report.parameters().water_temperature_c(), 25);
+  EXPECT_EQ(report.axis().contact_mm(), 40);
+  EXPECT_EQ(report.parameters().depth_mm(), 20);
+  EXPECT_FALSE(report.has_descent());
+  EXPECT_EQ(report.steps(0).confirmed_by(), "ann");
+  EXPECT_EQ(report.steps(0).actual_s(), 2);
+  EXPECT_EQ(report.steps(1).planned_s(), 60);
+  EXPECT_FALSE(report.steps(1).has_end_s());
+  EXPECT_EQ(report.run().warnings(0).code(), v1::Warning::FILM_LATE);
+  EXPECT_EQ(report.run().warnings(0).where().item(), "START_DIP");
 }
 
 TEST(DipRecord, ReportIsReplacedAtomically) {
   const testing::TemporaryFolder folder;
-  ASSERT_TRUE(write_report(folder.path(), "one"));
-  ASSERT_TRUE(write_report(folder.path(), "two"));
-  EXPECT_EQ(*read_text_file(folder.path() / "report.json", 100), "two");
+  ASSERT_TRUE(write_report(folder.path(), v1::DipReport()));
+  ASSERT_TRUE(write_report(folder.path(), report_of(facts())));
+  EXPECT_EQ(*read_text_file(folder.path() / "report.json", 10000),
+            *json_file_of(report_of(facts())));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.next"));
-  const auto lost = write_report(folder.path() / "none", "x");
+  const auto lost = write_report(folder.path() / "none", v1::DipReport());
   ASSERT_FALSE(lost);
   EXPECT_EQ(lost.error().reason, "DISK_FULL");
 }

@@ -158,6 +158,7 @@ def jobs(api, asset):
     require(api.call("GetJob", job=first).json["state"] == "SUCCEEDED", api.ask("GetJob", job=first).body)
     require(len(api.call("ListJobs").json["jobs"]) == 2, "expected two jobs")
     api.call("ListJobEvents", job=first)
+    require("simulate" in api.call("GetJobReport", job=first).json, "a report is not that of its kind")
     api.call("ShareJob", {"shared": True}, job=first)
     require("purgeTime" not in api.call("PinJob", {"pinned": True}, job=first).json, "a pinned job has a purge time")
     require(int(api.call("GetUsage").json["pinnedBytes"]) > 0, "pinned bytes are not counted")

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/jobs/calibration_file.h"
+#include "daemon/jobs/calibration_report.h"
+#include "hydroprint/v1/report.pb.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -35,17 +36,25 @@ TEST(Staleness, IsUnknownWithoutARig) {
       << "the rig of the calibration is no longer configured";
 }
 
-TEST(CalibrationFile, MissingAndInvalidKeysAreNamed) {
-  const auto refusal = [](const std::string& json) {
+TEST(CalibrationReport, ValuesThatNoCalibrationHasAreNamed) {
+  v1::CalibrationFacts facts;
+  const auto refusal = [&] {
     v1::Calibration out;
-    const Status status = read_calibration(json, out);
+    const Status status = take_calibration(facts, out);
     return status ? "taken" : status.error().reason + ": " + status.error().message;
   };
-  EXPECT_NE(refusal("{}").find("/pose/rotation_wxyz/0"), std::string::npos);
-  EXPECT_NE(refusal("no json").find("WORKER_UNUSABLE"), std::string::npos);
-  EXPECT_NE(refusal(R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[0,0,1e9]}})")
-                .find("/pose/translation_mm/2"),
-            std::string::npos);
+  EXPECT_NE(refusal().find("pose.rotation_wxyz"), std::string::npos);
+  for (const double x : {1.0, 0.0, 0.0, 0.0}) facts.mutable_pose()->add_rotation_wxyz(x);
+  for (const double x : {0.0, 0.0, 1e9}) facts.mutable_pose()->add_translation_mm(x);
+  EXPECT_NE(refusal().find("pose.translation_mm"), std::string::npos);
+  facts.mutable_pose()->set_translation_mm(2, 40);
+  EXPECT_NE(refusal().find("covariance"), std::string::npos);
+  v1::CalibrationFacts::Uncertainty& uncertainty = *facts.mutable_uncertainty();
+  for (int i = 0; i < 36; ++i) uncertainty.add_covariance_turn_rad_shift_mm(1);
+  for (int i = 0; i < 3; ++i) uncertainty.add_about_mm(1);
+  EXPECT_EQ(refusal(), "taken");
+  facts.mutable_pose()->set_rotation_wxyz(1, 0.1);
+  EXPECT_NE(refusal().find("WORKER_UNUSABLE"), std::string::npos) << "not a rotation";
 }
 
 }  // namespace

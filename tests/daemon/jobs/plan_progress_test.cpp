@@ -88,9 +88,7 @@ TEST_F(PlanOf3, BeginsWithTheFirstDip) {
   EXPECT_EQ(now.plan_job(), "jobs/7");
   EXPECT_EQ(now.next_immersion(), 1);
   for (const auto& dip : now.dips()) EXPECT_EQ(dip.step(), Progress::CALIBRATE);
-  EXPECT_EQ(now.dips(1).instruction(),
-            "dip 2 of 3: hang the object as in the picture, then "
-            "calibrate");
+  EXPECT_EQ(now.dips(1).instruction(), "hang the object as in the picture, then calibrate");
   EXPECT_EQ(now.dips(1).picture(), "jobs/7/artifacts/stretch-2.png");
 }
 
@@ -256,9 +254,9 @@ TEST_F(PlanOf3, JobsOfOtherPlansDoNotCount) {
 }
 
 TEST_F(PlanOf3, WarningsOfTheFilmAreShown) {
-  facts.warnings[add_film(1)] = {"the object is turned"};
+  facts.warnings[add_film(1)].emplace_back().set_message("the object is turned");
   ASSERT_EQ(progress().dips(0).warnings_size(), 1);
-  EXPECT_EQ(progress().dips(0).warnings(0), "the object is turned");
+  EXPECT_EQ(progress().dips(0).warnings(0).message(), "the object is turned");
 }
 
 }  // namespace

@@ -14,13 +14,13 @@ printer::Attributes office_printer() {
   return out;
 }
 
-std::vector<std::string> codes(const Warnings& warnings) {
-  std::vector<std::string> out;
+std::vector<WarningCode> codes(const Warnings& warnings) {
+  std::vector<WarningCode> out;
   for (const Warning& warning : warnings) out.push_back(warning.code);
   return out;
 }
 
-using Codes = std::vector<std::string>;
+using Codes = std::vector<WarningCode>;
 
 TEST(PrintRecord, SupportedPaperAndMarginsCauseNoWarning) {
   PrintPlan plan;
@@ -32,15 +32,15 @@ TEST(PrintRecord, UnlistedPaperAndMarginsCauseWarnings) {
   PrintPlan plan;
   plan.margin_mm = 5;
   plan.paper_mm = {200, 280};
-  EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{"paper_not_listed"});
+  EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{WarningCode::PAPER_NOT_LISTED});
   plan.paper_mm = {215.9, 279.4};
   plan.margin_mm = 4;
-  EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{"printer_margin"});
+  EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{WarningCode::PRINTER_MARGIN});
 }
 
 TEST(PrintRecord, IgnoredScaleCausesAWarning) {
   const Warnings warnings = warnings_of(std::vector<std::string>{"print-scaling", "media"});
-  EXPECT_EQ(codes(warnings), (Codes{"scale_not_heeded", "not_heeded"}));
+  EXPECT_EQ(codes(warnings), (Codes{WarningCode::SCALE_NOT_HEEDED, WarningCode::NOT_HEEDED}));
   EXPECT_NE(warnings[0].message.find("may not print at exact scale"), std::string::npos);
 }
 
@@ -57,23 +57,24 @@ TEST(PrintRecord, UnusablePrinterIsRefusedBeforeSending) {
   EXPECT_EQ(refused.error().reason, "FORMAT_NOT_SUPPORTED");
 }
 
-TEST(PrintPlan, ReportsAreParsedAndInvalidOnesRefused) {
+TEST(PrintPlan, PagesComeFromTheReportAndImpossibleOnesAreRefused) {
   PrintPlan plan;
-  ASSERT_TRUE(read_printed_pages(R"({"parameters": {"printer_margin_mm": 3}, "print": {"sheets": [
-                                     {"size_mm": [297, 210]}, {"size_mm": [297, 210]}]}})",
-                                 plan));
+  v1::PrintImageReport report;
+  report.mutable_page()->set_printer_margin_mm(3);
+  EXPECT_FALSE(read_printed_pages(report, plan)) << "no sheets";
+  for (int i = 0; i < 2; ++i) {
+    v1::PrintImageReport::Sheet& sheet = *report.add_sheets();
+    sheet.add_size_mm(297);
+    sheet.add_size_mm(210);
+  }
+  ASSERT_TRUE(read_printed_pages(report, plan));
   EXPECT_EQ(plan.pages, 2);
   EXPECT_EQ(plan.margin_mm, 3);
   EXPECT_TRUE(plan.paper_mm == Eigen::Vector2d(210, 297)) << "the paper lies upright in the tray";
-  for (const char* report :
-       {"", "[]", "{}", R"({"print": {"sheets": []}})",
-        R"({"parameters": {"printer_margin_mm": 0}, "print": {"sheets": [{"size_mm": [0, 5]}]}})",
-        R"({"parameters": {"printer_margin_mm": 0}, "print": {"sheets": [{"size_mm": ["a"]}]}})",
-        R"({"print": {"sheets": [{"size_mm": [297, 210]}]}})"}) {
-    const Status refused = read_printed_pages(report, plan);
-    ASSERT_FALSE(refused) << report;
-    EXPECT_EQ(refused.error().reason, "STATE_FORBIDS");
-  }
+  report.mutable_sheets(0)->set_size_mm(0, 0);
+  EXPECT_EQ(read_printed_pages(report, plan).error().reason, "STATE_FORBIDS");
+  report.mutable_sheets(0)->clear_size_mm();
+  EXPECT_FALSE(read_printed_pages(report, plan));
 }
 
 }  // namespace

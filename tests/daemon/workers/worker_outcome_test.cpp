@@ -41,6 +41,17 @@ TEST(Outcome, PrintedReasonIsUsedIfKnown) {
   EXPECT_EQ(told(SIGSEGV, R"({"error":{"reason":"MIRRORED"}})"), "WORKER_KILLED");
 }
 
+TEST(Outcome, MessageAndFieldAreThoseOfTheWorkersError) {
+  const auto failure = judge(exited(3), StopReason::kNothing, "hydroprint-worker: dpi: too large\n",
+                             R"({"error":{"message":"too large","metadata":{"field":"dpi"}}})");
+  EXPECT_EQ(failure->error.message, "too large");
+  EXPECT_EQ(failure->error.metadata.at("field"), "dpi");
+  const auto silent =
+      judge(exited(3), StopReason::kNothing, "hydroprint-worker: dpi: too large\n", "{");
+  EXPECT_EQ(silent->error.message, "dpi: too large") << "without the program's name";
+  EXPECT_TRUE(silent->error.metadata.empty());
+}
+
 TEST(Outcome, EachKindOfEndHasItsReason) {
   EXPECT_EQ(reason(exited(2)), "INPUT_REFUSED");
   EXPECT_EQ(reason(exited(4), "it failed"), "COMPUTATION_FAILED");

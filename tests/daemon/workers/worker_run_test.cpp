@@ -10,6 +10,7 @@
 #include <future>
 
 #include "daemon/platform/durable_file.h"
+#include "daemon/store/to_proto.h"
 #include "daemon/workers/local_executor.h"
 #include "tests/daemon/store/store_fixture.h"
 #include "tests/support/content.h"
@@ -64,12 +65,30 @@ class WorkerRunTest : public StoreTest {
 TEST_F(WorkerRunTest, WaitingAtTheEngineDoesNotUseUpTheTimeLimit) {
   start({std::chrono::seconds(0)});
   EXPECT_FALSE(step(WorkerWaits{"Resources"}));
-  EXPECT_EQ(job().progress.phase, "waiting: Resources");
+  EXPECT_EQ(job().progress.waits_for, "Resources");
+  EXPECT_EQ(job().progress.phase, "");
   EXPECT_TRUE(executor.cancels.empty());
   EXPECT_FALSE(step(WorkerRuns{}));
   EXPECT_EQ(executor.cancels, std::vector<CancelHow>{CancelHow::kGently});
   EXPECT_TRUE(step(WorkerEnds{.wait_status = SIGTERM}));
   EXPECT_EQ(job().failure->error.reason, "TIME_LIMIT");
+}
+
+TEST_F(WorkerRunTest, CancelledJobDoesNotShowAsWaiting) {
+  start({std::chrono::seconds(60)});
+  EXPECT_FALSE(step(WorkerWaits{"Resources"}));
+  EXPECT_EQ(to_message(job()).waits_for(), "Resources");
+  ASSERT_TRUE(jobs->cancel(id));
+  EXPECT_EQ(to_message(job()).waits_for(), "");
+}
+
+TEST_F(WorkerRunTest, RefusedInputNamesTheFieldOfTheJob) {
+  start({std::chrono::seconds(60)});
+  EXPECT_TRUE(step(
+      WorkerEnds{.wait_status = 3 << 8,
+                 .answer = R"({"error":{"message":"too large","metadata":{"field":"dpi"}}})"}));
+  EXPECT_EQ(to_message(job()).error().field(), "simulate.dpi");
+  EXPECT_EQ(to_message(job()).error().message(), "too large");
 }
 
 TEST_F(WorkerRunTest, NoAnswerChangesNothingBeforeTheLimit) {
@@ -157,7 +176,7 @@ class SlowShare : public WorkerRunTest {
 
 TEST_F(SlowShare, WorkerStartsWhenItsFilesAreThereAndNothingWaitsForThem) {
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(step(std::nullopt));
-  EXPECT_EQ(job().progress.phase, "waiting: its files are copied");
+  EXPECT_EQ(job().progress.waits_for, "its files are copied");
   EXPECT_FALSE(executor.started_with);
   release();
   EXPECT_FALSE(run->is_open());

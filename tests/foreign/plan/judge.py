@@ -142,7 +142,7 @@ def judge_turned_dip(options: argparse.Namespace, folder: pathlib.Path) -> list[
 
 
 def warnings_of(folder: pathlib.Path) -> list[dict]:
-    return json.loads((folder / "report.json").read_text())["warnings"]
+    return json.loads((folder / "report.json").read_text())["run"]["warnings"]
 
 
 CASES = {"sphere": judge_sphere, "turned": judge_turned_sphere, "cube": judge_cube, "plate": judge_plate, "threads": judge_threads}

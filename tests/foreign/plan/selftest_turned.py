@@ -73,7 +73,7 @@ class TurnedDipTest(unittest.TestCase):
             self.assertFalse(turned.of_same_film(other, film)[0].holds)
 
     def test_missing_and_needless_warnings_are_seen(self):
-        pose_off, seam_moved = {"code": "plan_pose_off"}, {"code": "plan_seam_moved"}
+        pose_off, seam_moved = {"code": "PLAN_POSE_OFF"}, {"code": "PLAN_SEAM_MOVED"}
         for warnings, turned_deg, holds in (([], 8, False), ([pose_off], 8, True), ([seam_moved], 8, False), ([], 3, True),
                                             ([pose_off], 3, False), ([], 0, True), ([pose_off], 0, False),
                                             ([seam_moved], 0, False)):

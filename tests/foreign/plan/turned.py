@@ -95,10 +95,10 @@ def of_same_film(film: np.ndarray, planned: np.ndarray) -> list[Claim]:
 def of_warnings(warnings: list[dict], turned_deg: float) -> list[Claim]:
     """A pose that is more than 5 degrees off is named. Between 5 and 6 degrees either is right: a part of the turn may be
     about the vertical."""
-    plan_codes = [str(warning["code"]).lower() for warning in warnings if str(warning["code"]).lower().startswith("plan_")]
-    pose_off = plan_codes.count("plan_pose_off")
+    plan_codes = [warning["code"] for warning in warnings if warning["code"].startswith("PLAN_")]
+    pose_off = plan_codes.count("PLAN_POSE_OFF")
     if turned_deg == 0:
         return [Claim("warnings about the plan at the planned pose", float(len(plan_codes)), 0)]
     if turned_deg > 6:
-        return [Claim("warnings plan_pose_off missing", float(pose_off != 1), 0)]
-    return [Claim("warnings plan_pose_off without need", float(pose_off), 0)] if turned_deg < 5 else []
+        return [Claim("warnings PLAN_POSE_OFF missing", float(pose_off != 1), 0)]
+    return [Claim("warnings PLAN_POSE_OFF without need", float(pose_off), 0)] if turned_deg < 5 else []

@@ -97,7 +97,7 @@ SPHERE = [
          over("#305020", Layer("decal", TALL, direction=of_film(OVER, (0.8, 0.2, 0.5)))), OVER),
     Case("short-planar", "sphere", one(projection="planar", picture=PLAIN, size_mm=50.0, turn_deg=30.0), OVER,
          flags=("--project", "planar", "--project-size-mm", "50", "--project-turn-deg", "30")),
-    Case("short-default", "sphere", one(picture=PLAIN), OVER, flags=(), warning="picture_projected"),
+    Case("short-default", "sphere", one(picture=PLAIN), OVER, flags=(), warning="PICTURE_PROJECTED"),
     Case("short-no-pose", "sphere", one(projection="dip", picture=TALL, size_mm=45.0), None,
          flags=("--project", "dip", "--project-size-mm", "45")),
 ]
@@ -150,7 +150,7 @@ SMALL = [
     Case("small-decal", "ball",
          over("#305020", Layer("decal", TALL, direction=of_film(OVER, (0.8, 0.2, 0.5)), opacity=0.8)), OVER,
          film=SMALL_FILM),
-    Case("small-short", "ball", one(picture=PLAIN), OVER, film=SMALL_FILM, flags=(), warning="picture_projected"),
+    Case("small-short", "ball", one(picture=PLAIN), OVER, film=SMALL_FILM, flags=(), warning="PICTURE_PROJECTED"),
 ]
 
 SOLIDS: dict[str, Callable[[pathlib.Path], Solid | None]] = {

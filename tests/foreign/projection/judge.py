@@ -76,7 +76,7 @@ def judge(case: Case, solid: Solid, folder: pathlib.Path) -> tuple[list[claims.C
     try:
         found = read_landing(folder / "surface_map.ply")
         image = png.read(folder / "film.png")
-        warnings = json.loads((folder / "report.json").read_text())["warnings"]
+        warnings = json.loads((folder / "report.json").read_text())["run"]["warnings"]
     except (OSError, KeyError, ValueError) as error:
         raise WorkerFailed(f"files of the print: {error!r}") from error
     result = claims.Print(solid, case.paint, case.rotation, case.film, DPI, found, image)

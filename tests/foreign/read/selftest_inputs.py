@@ -118,7 +118,7 @@ class OtherInputTest(unittest.TestCase):
         random = np.random.default_rng(3)
         colours = random.integers(60, 190, (4, 3))
         images = [np.rint(colour + random.integers(-60, 60, (64, 64, 3))) for colour in colours]
-        warning = ["textures_reduced: the textures have more than 32 MiB"]
+        warning = ["TEXTURES_REDUCED: the textures have more than 32 MiB"]
         self.assertEqual(failed(claims.of_reduced(images, colours, warning)), [])
         self.assertEqual(failed(claims.of_reduced(images, colours, [])), ["a warning mentions textures"])
         other_size = images[:3] + [images[3][:32]]

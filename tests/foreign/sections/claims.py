@@ -97,7 +97,7 @@ def of_refusal(outcome: Outcome) -> list[Claim]:
 
 
 def of_sections(report: dict, sections: Sections) -> list[Claim]:
-    """The key `sections` of the report against the union of the shells."""
+    """`flow.sections` of the report against the union of the shells. `report`: its `flow`."""
     rows = report.get("sections")
     if not rows:
         return [Claim("sections", NOWHERE, 1, at_least=True)]

@@ -24,7 +24,7 @@ LONGER = 1.5  # the worker is stopped after this many times the allowed processo
 def finished_claims(name: str, body: Body, folder: pathlib.Path, small: bool) -> list[Claim]:
     """The claims about the artifacts of a finished run."""
     try:
-        report = json.loads((folder / "report.json").read_text())
+        report = json.loads((folder / "report.json").read_text())["flow"]
         if body.kind == bodies.HOLLOW:
             return claims.of_hollow(report, png.read(folder / "film.png"))
         if body.kind == bodies.OPEN:

@@ -1,8 +1,10 @@
 // The verb calibrate with a camera that was calibrated by calibrate-camera.
 #include <cmath>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/registration/camera/calibration_board.h"
 #include "tests/sim/calibrate/calibrate_fixture.h"
+#include "tests/sim/worker/report_file.h"
 
 namespace hydroprint::calibrate {
 namespace {
@@ -52,7 +54,9 @@ TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   ASSERT_EQ(lens.status, 0) << lens.err;
   EXPECT_NEAR(read(path("camera/camera.json"))["fx_px"], rig.lens.focal_px, 2);
   EXPECT_EQ(read(path("camera/camera.json"))["pattern"]["patch_px"], 4);
-  EXPECT_FALSE(read(path("camera/report.json"))["camera"].contains("pattern"));
+  const auto taken = testing::read_message<v1::CalibrateCameraReport>(path("camera/report.json"));
+  EXPECT_NEAR(taken.lens(0), rig.lens.focal_px, 2);
+  EXPECT_EQ(taken.covariance_size(), 81);
 
   const Ended ended = calibrate(
       {"--camera", path("camera/camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
@@ -73,9 +77,12 @@ TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   EXPECT_EQ(pose, read(path("out/pose.json")));
   EXPECT_EQ(found["film_frame"]["markers"].size(), 4U);
   EXPECT_LT(std::abs(found["water"]["z_mm"].get<double>()), 1);
-  const json report = read(path("out/report.json"));
-  ASSERT_EQ(report["warnings"].size(), 1U) << report["warnings"];
-  EXPECT_EQ(report["warnings"][0]["code"], "pose_unconstrained");
+  const auto report = testing::read_message<v1::CalibrateReport>(path("out/report.json"));
+  ASSERT_EQ(report.run().warnings_size(), 1) << report.run().DebugString();
+  EXPECT_EQ(report.run().warnings(0).code(), v1::Warning::POSE_UNCONSTRAINED);
+  EXPECT_EQ(
+      report.calibration().DebugString(),
+      testing::read_message<v1::CalibrationFacts>(path("out/calibration.json")).DebugString());
   for (const char* picture : {"out/alignment.png", "out/error.png"})
     EXPECT_GT(fs::file_size(path(picture)), 10000U) << picture;
   // The verb template accepts the result as its pose.

@@ -21,11 +21,11 @@ TEST_F(Calibrate, NamesAHiddenMarker) {
   const Ended ended =
       calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  const json out = json::parse(ended.out);
+  const json warnings = json::parse(ended.out).at("report").at("run").at("warnings");
   // The second warning says that the pose is not fully determined.
-  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];
-  EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
-  EXPECT_EQ(out["warnings"][0]["where"], "near");
+  ASSERT_EQ(warnings.size(), 2U) << warnings;
+  EXPECT_EQ(warnings[0]["code"], "MARKER_LEFT_OUT");
+  EXPECT_EQ(warnings[0]["where"]["marker"], "near");
 }
 
 TEST_F(Calibrate, WarnsOfAnUncalibratedCamera) {
@@ -33,14 +33,14 @@ TEST_F(Calibrate, WarnsOfAnUncalibratedCamera) {
   // With the driver's lens, calibrate may fail because the markers disagree. The error must then
   // mention the camera's calibration.
   const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
-  const json out = json::parse(ended.out);
   if (ended.status != 0) {
     EXPECT_NE(ended.err.find("calibrate the camera"), std::string::npos) << ended.err;
     return;
   }
   bool is_said = false;
-  for (const auto& warning : out["warnings"])
-    is_said = is_said || warning["code"] == "camera_not_calibrated";
+  const json out = json::parse(ended.out);
+  for (const auto& warning : out["report"]["run"]["warnings"])
+    is_said = is_said || warning["code"] == "CAMERA_NOT_CALIBRATED";
   EXPECT_TRUE(is_said);
 }
 

@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "hardware/simulator/scene/shapes.h"
+#include "hydroprint/v1/report.pb.h"
 #include "sim/calibrate/camera_file.h"
 #include "sim/mesh/read/read_model.h"
 #include "tests/sim/calibrate/calibrate_fixture.h"
+#include "tests/sim/worker/report_file.h"
 #include "tests/support/swept_camera.h"
 
 namespace hydroprint::calibrate {
@@ -38,18 +40,18 @@ TEST_F(Fuse, WritesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {
   write_frames(path("frames"), camera.frames(10));
   const Ended ended = fuse({"--layout", layout, "--threads", "2"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  const json report = read(path("out/report.json"));
-  EXPECT_EQ(report["verb"], "fuse");
-  EXPECT_EQ(report["scan"]["frames_tracked"], 10);
-  EXPECT_EQ(report["scan"]["frames_lost"], 0);
-  EXPECT_LT(report["scan"]["rms_mm"], 2);
-  EXPECT_EQ(report["scan"]["film_frame"]["markers"].size(), 4U);
-  for (const auto& name : report["artifacts"])
-    EXPECT_TRUE(fs::exists(fs::path(path("out")) / name.get<std::string>())) << name;
+  const auto report = testing::read_message<v1::FuseReport>(path("out/report.json"));
+  EXPECT_EQ(report.run().verb(), "fuse");
+  EXPECT_EQ(report.frames_tracked(), 10);
+  EXPECT_EQ(report.frames_lost(), 0);
+  EXPECT_LT(report.rms_mm(), 2);
+  EXPECT_EQ(report.film_frame().markers_size(), 4);
+  for (const std::string& name : report.run().artifacts())
+    EXPECT_TRUE(fs::exists(fs::path(path("out")) / name)) << name;
 
   const auto model = mesh::read_model(path("out/scan.ply"), 1, {});
   ASSERT_TRUE(model) << model.error().message;
-  EXPECT_EQ(model->triangles.size(), report["scan"]["triangles"]);
+  EXPECT_EQ(model->triangles.size(), static_cast<std::size_t>(report.mesh().triangles()));
   std::vector<double> top;  // heights of the block's top
   for (const Eigen::Vector3d& p : model->vertices)
     if (std::abs(p.x()) < 25 && std::abs(p.y()) < 15 && p.z() > 60 && p.z() < 120)

@@ -186,7 +186,7 @@ TEST_F(Ball, OutliersCountUnlessTheyAreDropped) {
   EXPECT_TRUE(outcome->points[10].is_used());
   EXPECT_TRUE(outcome->points[10].is_outlier);
   EXPECT_TRUE(std::any_of(outcome->warnings.begin(), outcome->warnings.end(),
-                          [](const Warning& w) { return w.code == "outliers"; }));
+                          [](const Warning& w) { return w.code == WarningCode::OUTLIERS; }));
 }
 
 TEST_F(Ball, TooFewPointsAndPointsOnOneSpotAreRefused) {
@@ -237,8 +237,9 @@ TEST(Fit, WarnsWhereTheSheetDoesNotSettle) {
     bend.dip.depth_mm = depth_mm;
     const auto outcome = fit(bend.model, bend.dip, feet, nothing, testing::two_threads());
     ASSERT_TRUE(outcome) << outcome.error().message;
-    const bool warns = std::any_of(outcome->warnings.begin(), outcome->warnings.end(),
-                                   [](const Warning& w) { return w.code == "sheet_unsettled"; });
+    const bool warns =
+        std::any_of(outcome->warnings.begin(), outcome->warnings.end(),
+                    [](const Warning& w) { return w.code == WarningCode::SHEET_UNSETTLED; });
     EXPECT_EQ(warns, !depth_mm.has_value());
   }
 }

@@ -69,7 +69,7 @@ inline void expect_refused(const std::filesystem::path& path, const std::string&
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
-inline bool has_warning(const Warnings& warnings, const std::string& code) {
+inline bool has_warning(const Warnings& warnings, WarningCode code) {
   for (const auto& w : warnings)
     if (w.code == code) return true;
   return false;

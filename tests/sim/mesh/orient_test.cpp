@@ -69,7 +69,7 @@ double outward_share(const Surface& s, const std::function<Point(const Point&)>&
   return good / static_cast<double>(s.triangles.size());
 }
 
-std::string warning(const Surface& surface, const std::string& code) {
+std::string warning(const Surface& surface, WarningCode code) {
   for (const Warning& w : surface.warnings)
     if (w.code == code) return w.message;
   return {};
@@ -95,8 +95,8 @@ TEST(Orient, ABallWithHolesFacesOutward) {
   EXPECT_EQ(surface.shells[0].rule, SideRule::kRays);
   EXPECT_TRUE(surface.shells[0].turned_over);
   EXPECT_FALSE(surface.shells[0].closed);
-  EXPECT_NE(warning(surface, "sides_by_rays"), "");
-  EXPECT_NE(warning(surface, "inside_out"), "");
+  EXPECT_NE(warning(surface, WarningCode::SIDES_BY_RAYS), "");
+  EXPECT_NE(warning(surface, WarningCode::INSIDE_OUT), "");
 }
 
 TEST(Orient, ABottleWithAnOpenRimFacesAwayFromItsGlass) {
@@ -215,7 +215,8 @@ TEST(Orient, AFlatSheetIsUndecidedAndStaysAsInTheFile) {
     EXPECT_EQ(outward_share(surface, [&](const Point&) { return Point(0, 0, up); }), 1);
     ASSERT_EQ(surface.shells.size(), 1U);
     EXPECT_EQ(surface.shells[0].rule, SideRule::kUndecided);
-    EXPECT_NE(warning(surface, "sides_by_rays").find("Close the holes"), std::string::npos);
+    EXPECT_NE(warning(surface, WarningCode::SIDES_BY_RAYS).find("Close the holes"),
+              std::string::npos);
     EXPECT_TRUE(surface.is_flat);
   }
 }

@@ -65,7 +65,7 @@ Surface made(const Model& model, double max_edge_mm = kMaxEdgeMm) {
   return *surface;
 }
 
-bool has_warning(const Surface& surface, const std::string& code) {
+bool has_warning(const Surface& surface, WarningCode code) {
   return std::any_of(surface.warnings.begin(), surface.warnings.end(),
                      [&](const Warning& w) { return w.code == code; });
 }
@@ -210,7 +210,7 @@ TEST(MakeSurface, CornerNormalsOfABoxAreItsFaceNormals) {
 TEST(MakeSurface, InsideOutModelIsTurnedOverWithAWarning) {
   const Surface surface = made(turned(sample::icosphere(10, 3)));
   EXPECT_GT(volume(surface), 0);
-  EXPECT_TRUE(has_warning(surface, "inside_out"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::INSIDE_OUT));
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     EXPECT_GT(surface.corner_normals[t][0].dot(surface.points[surface.triangles[t][0]]), 0);
 }
@@ -222,7 +222,7 @@ TEST(MakeSurface, AFewTurnedFacesFollowTheirNeighbours) {
   const Surface surface = made(model);
   EXPECT_TRUE(surface.closed);
   EXPECT_GT(volume(surface), 0);
-  EXPECT_TRUE(has_warning(surface, "inconsistent_orientation"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::INCONSISTENT_ORIENTATION));
 }
 
 TEST(MakeSurface, OneShellInsideOutAmongTwoIsTurnedOver) {
@@ -230,15 +230,15 @@ TEST(MakeSurface, OneShellInsideOutAmongTwoIsTurnedOver) {
   const Model b = box({30, 0, 0}, {40, 10, 10});
   const Surface surface = made(join(a, turned(b)));
   EXPECT_NEAR(volume(surface), 8000 + 1000, 1e-6);
-  EXPECT_TRUE(has_warning(surface, "inside_out"));
-  EXPECT_TRUE(has_warning(surface, "many_shells"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::INSIDE_OUT));
+  EXPECT_TRUE(has_warning(surface, WarningCode::MANY_SHELLS));
 }
 
 TEST(MakeSurface, ACavityInsideAnotherShellStaysACavity) {
   const Surface surface =
       made(join(box({0, 0, 0}, {20, 20, 20}), turned(box({5, 5, 5}, {15, 15, 15}))));
   EXPECT_NEAR(volume(surface), 8000 - 1000, 1e-6);
-  EXPECT_FALSE(has_warning(surface, "inside_out"));
+  EXPECT_FALSE(has_warning(surface, WarningCode::INSIDE_OUT));
 }
 
 TEST(MakeSurface, OpenMeshIsReportedWithItsBoundaryEdges) {
@@ -246,23 +246,23 @@ TEST(MakeSurface, OpenMeshIsReportedWithItsBoundaryEdges) {
   model.triangles.resize(10);  // removes the last quad
   const Surface surface = made(model);
   EXPECT_FALSE(surface.closed);
-  ASSERT_TRUE(has_warning(surface, "mesh_open"));
+  ASSERT_TRUE(has_warning(surface, WarningCode::MESH_OPEN));
   EXPECT_TRUE(surface.warnings.front().message.starts_with(
       "the mesh has 4 boundary edges in 1 hole (40 mm around (10.0, 5.0, 5.0) mm)"));
-  EXPECT_FALSE(has_warning(surface, "inside_out"));
+  EXPECT_FALSE(has_warning(surface, WarningCode::INSIDE_OUT));
 }
 
 TEST(MakeSurface, OpenMeshInsideOutIsTurnedOver) {
   Model model = box({100, 0, 0}, {110, 10, 10});
   model.triangles.resize(10);
-  EXPECT_TRUE(has_warning(made(turned(model)), "inside_out"));
+  EXPECT_TRUE(has_warning(made(turned(model)), WarningCode::INSIDE_OUT));
 }
 
 TEST(MakeSurface, ThreeFacesAtOneEdgeAreNonManifold) {
   Model model = box({0, 0, 0}, {10, 10, 10});
   model.vertices.emplace_back(-10, -10, 5);
   model.triangles.emplace_back(0, 4, 8);
-  EXPECT_TRUE(has_warning(made(model), "mesh_non_manifold"));
+  EXPECT_TRUE(has_warning(made(model), WarningCode::MESH_NON_MANIFOLD));
 }
 
 TEST(MakeSurface, AModelGivenTwiceIsOneSolidWhicheverWayRoundItsCopyIs) {
@@ -272,8 +272,8 @@ TEST(MakeSurface, AModelGivenTwiceIsOneSolidWhicheverWayRoundItsCopyIs) {
     for (const Model& both : {join(ball, copy), torn(join(ball, copy)), join(copy, ball)}) {
       const Surface surface = made(both);
       EXPECT_TRUE(surface.closed);
-      EXPECT_TRUE(has_warning(surface, "coincident_faces"));
-      EXPECT_FALSE(has_warning(surface, "many_shells"));
+      EXPECT_TRUE(has_warning(surface, WarningCode::COINCIDENT_FACES));
+      EXPECT_FALSE(has_warning(surface, WarningCode::MANY_SHELLS));
       EXPECT_EQ(surface.triangles.size(), once.triangles.size());
       EXPECT_NEAR(volume(surface), volume(once), 1e-9 * volume(once));
     }
@@ -284,8 +284,8 @@ TEST(MakeSurface, PartsThatTouchAreUnitedWithoutTheWallBetweenThem) {
   const Model left = box({0, 0, 0}, {10, 10, 10}), right = box({10, 0, 0}, {20, 10, 10});
   const Surface two = made(join(left, right));
   EXPECT_TRUE(two.closed);
-  EXPECT_TRUE(has_warning(two, "parts_touch"));
-  EXPECT_FALSE(has_warning(two, "coincident_faces"));
+  EXPECT_TRUE(has_warning(two, WarningCode::PARTS_TOUCH));
+  EXPECT_FALSE(has_warning(two, WarningCode::COINCIDENT_FACES));
   EXPECT_NEAR(volume(two), 2000, 1e-6);
   EXPECT_NEAR(area(two.points, two.triangles), 2 * 100 + 4 * 200, 1e-6);
   // Four boxes around an edge: their walls cross there.
@@ -305,7 +305,7 @@ TEST(MakeSurface, WallsThatOnlyMeetOtherWallsAreDroppedToo) {
   }
   const Surface surface = made(block);
   EXPECT_TRUE(surface.closed);
-  EXPECT_FALSE(has_warning(surface, "coincident_faces"));
+  EXPECT_FALSE(has_warning(surface, WarningCode::COINCIDENT_FACES));
   EXPECT_NEAR(volume(surface), 64'000, 1e-6);
   EXPECT_NEAR(area(surface.points, surface.triangles), 6 * 1600, 1e-6);
 }
@@ -341,7 +341,7 @@ TEST(MakeSurface, SolidsWhoseCommonWallsAreDividedDifferentlyStayOriented) {
     const Surface surface = made(given);
     EXPECT_NEAR(volume(surface), 27'000, 1e-6);
     EXPECT_NEAR(outer_area(surface), 6 * 900, 1e-6);
-    EXPECT_FALSE(has_warning(surface, "sides_by_rays"));
+    EXPECT_FALSE(has_warning(surface, WarningCode::SIDES_BY_RAYS));
   }
 }
 
@@ -379,7 +379,7 @@ TEST(MakeSurface, ADoubleSidedSheetStaysOneSheetWithoutThickness) {
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
   const Surface surface = made(join(plate, turned(plate)));
   EXPECT_TRUE(surface.is_flat);
-  EXPECT_TRUE(has_warning(surface, "coincident_faces"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::COINCIDENT_FACES));
   EXPECT_NEAR(area(surface.points, surface.triangles), 900, 1e-9);
   EXPECT_FALSE(made(box({0, 0, 0}, {30, 30, 0.1})).is_flat);
 }
@@ -388,7 +388,7 @@ TEST(MakeSurface, FacesWithoutAreaAreDroppedWithAWarning) {
   Model model = box({0, 0, 0}, {10, 10, 10});
   model.triangles.emplace_back(0, 0, 1);
   const Surface surface = made(model);
-  EXPECT_TRUE(has_warning(surface, "zero_area_faces"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::ZERO_AREA_FACES));
   EXPECT_TRUE(surface.closed);
 }
 
@@ -404,9 +404,12 @@ TEST(MakeSurface, OnlyFacesWithoutAreaAreRefused) {
 }
 
 TEST(MakeSurface, ProbablyWrongUnitsAreReported) {
-  EXPECT_TRUE(has_warning(made(box({0, 0, 0}, {0.1, 0.1, 0.1})), "small_or_large_object"));
-  EXPECT_TRUE(has_warning(made(box({0, 0, 0}, {1500, 10, 10}), 50), "small_or_large_object"));
-  EXPECT_FALSE(has_warning(made(box({0, 0, 0}, {100, 10, 10})), "small_or_large_object"));
+  EXPECT_TRUE(
+      has_warning(made(box({0, 0, 0}, {0.1, 0.1, 0.1})), WarningCode::SMALL_OR_LARGE_OBJECT));
+  EXPECT_TRUE(
+      has_warning(made(box({0, 0, 0}, {1500, 10, 10}), 50), WarningCode::SMALL_OR_LARGE_OBJECT));
+  EXPECT_FALSE(
+      has_warning(made(box({0, 0, 0}, {100, 10, 10})), WarningCode::SMALL_OR_LARGE_OBJECT));
 }
 
 TEST(MakeSurface, TheLikelyUnitIsNamedWithItsFactor) {
@@ -416,7 +419,7 @@ TEST(MakeSurface, TheLikelyUnitIsNamedWithItsFactor) {
     model.scale = scale;
     const auto surface = make_surface(model, side, {});
     for (const Warning& w : surface->warnings)
-      if (w.code == "small_or_large_object") return w.message;
+      if (w.code == WarningCode::SMALL_OR_LARGE_OBJECT) return w.message;
     return std::string();
   };
   EXPECT_NE(message(0.25, 1, "a.glb").find("metres, give --scale 1000, and it is 250 mm"),
@@ -474,7 +477,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
     model.triangles.emplace_back(2 * i + 1, c, d);
   }
   const Surface surface = made(model);
-  EXPECT_TRUE(has_warning(surface, "inconsistent_orientation"));
+  EXPECT_TRUE(has_warning(surface, WarningCode::INCONSISTENT_ORIENTATION));
   EXPECT_FALSE(surface.closed);
   EXPECT_TRUE(surface.is_flat);
 }

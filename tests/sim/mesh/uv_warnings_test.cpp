@@ -17,7 +17,8 @@ void add_square(Model& model, float low, float high, bool mirrored, int material
 
 std::string codes(const Model& model) {
   std::string all;
-  for (const auto& w : uv_warnings(model)) all += w.code + " " + w.message.substr(0, 4) + ";";
+  for (const auto& w : uv_warnings(model))
+    all += std::string(name_of(w.code)) + " " + w.message.substr(0, 4) + ";";
   return all;
 }
 
@@ -33,14 +34,14 @@ TEST(UvWarnings, TextureUsedTwiceIsReportedWithItsShare) {
   Model model;
   add_square(model, 0, 1, false);
   add_square(model, 0, 0.5F, false);
-  EXPECT_EQ(codes(model), "uv_overlapping 25 %;");
+  EXPECT_EQ(codes(model), "UV_OVERLAPPING 25 %;");
 }
 
 TEST(UvWarnings, RepetitionCountsAsOverlap) {
   Model model;
   add_square(model, 0, 0.5F, false);
   add_square(model, 1, 1.5F, false);
-  EXPECT_EQ(codes(model), "uv_overlapping 100 ;");
+  EXPECT_EQ(codes(model), "UV_OVERLAPPING 100 ;");
 }
 
 TEST(UvWarnings, TexturesOfDifferentMaterialsDoNotOverlap) {
@@ -54,7 +55,7 @@ TEST(UvWarnings, MirroredChartsAreReportedWithTheirShare) {
   Model model;
   add_square(model, 0, 0.4F, false);
   add_square(model, 0.5F, 0.9F, true);
-  EXPECT_EQ(codes(model), "uv_mirrored 50 %;");
+  EXPECT_EQ(codes(model), "UV_MIRRORED 50 %;");
 }
 
 }  // namespace

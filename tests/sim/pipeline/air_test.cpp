@@ -45,7 +45,8 @@ double bare_share(double tilt_rad) {
 
 Warning warning_of_level_face(const Dip& dip) {
   for (const Warning& w : dip.warnings) {
-    if (w.code == "air_trapped" && w.message.find("level face") != std::string::npos) return w;
+    if (w.code == WarningCode::AIR_TRAPPED && w.message.find("level face") != std::string::npos)
+      return w;
   }
   return {};
 }
@@ -93,17 +94,17 @@ TEST(Air, UnderALevelFaceIsReportedWithItsAreaAndPlace) {
   const Warning flat = warning_of_level_face(testing::dipped(box, options));
   EXPECT_NE(flat.message.find("600 mm2"), std::string::npos) << flat.message;
   EXPECT_NE(flat.message.find("Tilt"), std::string::npos) << flat.message;
-  EXPECT_TRUE(flat.where.starts_with("0.00 mm immersion, at (")) << flat.where;
+  EXPECT_TRUE(words_of(flat.where).starts_with("0.00 mm immersion, at (")) << words_of(flat.where);
   const Dip tilted = testing::dipped(bodies::tilted(box, 0.3), options);
-  EXPECT_FALSE(testing::warns(tilted, "air_trapped"));
+  EXPECT_FALSE(testing::warns(tilted, WarningCode::AIR_TRAPPED));
   const Dip sphere = testing::dipped(sample::icosphere(20, 3), options);
-  EXPECT_FALSE(testing::warns(sphere, "air_trapped"));
+  EXPECT_FALSE(testing::warns(sphere, WarningCode::AIR_TRAPPED));
 }
 
 TEST(Air, UnderTheCeilingOfACavityIsReportedOnce) {
   const Dip cup = dipped_cup(0, 0);
-  EXPECT_TRUE(testing::warns(cup, "air_trapped"));
-  EXPECT_TRUE(warning_of_level_face(cup).code.empty());
+  EXPECT_TRUE(testing::warns(cup, WarningCode::AIR_TRAPPED));
+  EXPECT_TRUE(warning_of_level_face(cup).code == WarningCode::CODE_UNSPECIFIED);
   EXPECT_TRUE(cup.figures.level_faces.empty());
 }
 

@@ -48,8 +48,8 @@ TEST(Dip, AFlatBottomMapsToItselfAndTheWallsAreReached) {
   EXPECT_GT(top, 50);
   EXPECT_NEAR(d.figures.depth_mm, 20, 1e-9);
   EXPECT_FALSE(d.figures.stopped_at_edge);
-  EXPECT_TRUE(warns(d, "parts_not_reached"));
-  EXPECT_TRUE(warns(d, "theta_clamped"));
+  EXPECT_TRUE(warns(d, WarningCode::PARTS_NOT_REACHED));
+  EXPECT_TRUE(warns(d, WarningCode::THETA_CLAMPED));
 }
 
 TEST(Dip, OnlyACupWithItsMouthDownAndAVentTakesFilmInside) {
@@ -111,7 +111,7 @@ TEST(Dip, FilmBetweenTwoFeetIsSharedBetweenThem) {
 TEST(Dip, EndsWhereTheObjectReachesTheFilmsEdge) {
   const Dip d = dipped(bodies::wedge(std::numbers::pi / 4, 40, 20), options_for("50x80"));
   EXPECT_TRUE(d.figures.stopped_at_edge);
-  EXPECT_TRUE(warns(d, "film_edge_reached"));
+  EXPECT_TRUE(warns(d, WarningCode::FILM_EDGE_REACHED));
   EXPECT_NEAR(d.figures.depth_mm, 25, 0.06);
   for_each_point(d, [&](const Vector3d& p, const Vector2d& film) {
     if (p.z() > d.figures.depth_mm) {

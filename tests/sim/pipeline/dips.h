@@ -54,7 +54,7 @@ inline void expect_sound(const Dip& dip, const DipOptions& options) {
   EXPECT_LE(f.stretch_p50, f.stretch_p95);
   EXPECT_LE(f.stretch_p95, f.stretch_max);
   for (const Warning& w : dip.warnings) {
-    EXPECT_FALSE(w.code.empty() || w.message.empty());
+    EXPECT_FALSE(w.code == WarningCode::CODE_UNSPECIFIED || w.message.empty());
     EXPECT_EQ(w.message.find('\n'), std::string::npos);
   }
 }
@@ -71,14 +71,14 @@ inline Dip dipped(const mesh::Model& model, const DipOptions& options) {
 }
 
 /// The warning with this code; a warning with an empty code if there is none.
-inline Warning warning_of(const Dip& dip, const std::string& code) {
+inline Warning warning_of(const Dip& dip, WarningCode code) {
   const auto it = std::find_if(dip.warnings.begin(), dip.warnings.end(),
                                [&](const Warning& w) { return w.code == code; });
   return it == dip.warnings.end() ? Warning{} : *it;
 }
 
-inline bool warns(const Dip& dip, const std::string& code) {
-  return !warning_of(dip, code).code.empty();
+inline bool warns(const Dip& dip, WarningCode code) {
+  return warning_of(dip, code).code != WarningCode::CODE_UNSPECIFIED;
 }
 
 /// Calls `visit` for each point with its position in the film frame, whose z is the immersion, and

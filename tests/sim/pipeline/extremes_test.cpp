@@ -104,7 +104,7 @@ TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesTheEdge) {
     options.X_FO = at(30 - gap_mm, 5);
     const Dip d = dipped(sample::icosphere(kRadius_mm, 5), options);
     EXPECT_TRUE(d.figures.stopped_at_edge);
-    EXPECT_TRUE(warns(d, "film_edge_reached"));
+    EXPECT_TRUE(warns(d, WarningCode::FILM_EDGE_REACHED));
     const double height_mm = kRadius_mm - d.figures.depth_mm;
     EXPECT_NEAR(std::sqrt(kRadius_mm * kRadius_mm - height_mm * height_mm), gap_mm, 0.06);
     for_each_point(d, [&](const Vector3d& p, const Vector2d& film) {

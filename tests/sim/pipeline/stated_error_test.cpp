@@ -75,8 +75,8 @@ TEST(Tolerance, AddsWaterlinesOnlyWhereTheStatedErrorExceedsIt) {
   EXPECT_LT(finer.figures.error->p95_mm, usual.figures.error->p95_mm);
   // Film that tears at the box's edges is not known to 0.02 mm with any number of waterlines.
   EXPECT_GT(finer.figures.error->beyond_share, 0);
-  EXPECT_TRUE(testing::warns(finer, "tolerance_exceeded"));
-  EXPECT_FALSE(testing::warns(usual, "tolerance_exceeded"));
+  EXPECT_TRUE(testing::warns(finer, WarningCode::TOLERANCE_EXCEEDED));
+  EXPECT_FALSE(testing::warns(usual, WarningCode::TOLERANCE_EXCEEDED));
 }
 
 }  // namespace

@@ -41,9 +41,10 @@ TEST(Warnings, StretchBeyondStokesIsForStokesBeyondAStretchOfOnePointThree) {
   // The stretch along the meridian is 1 / cos(theta / 2): 1.3 at 79 degrees (field notes, section
   // 2).
   const mesh::Model sphere = sample::icosphere(20, 4);
-  EXPECT_TRUE(warns(dipped(sphere, to_angle(95)), "stretch_beyond_stokes"));
-  EXPECT_FALSE(warns(dipped(sphere, to_angle(65)), "stretch_beyond_stokes"));
-  EXPECT_FALSE(warns(dipped(sphere, to_angle(95, FilmModel::kSheet)), "stretch_beyond_stokes"));
+  EXPECT_TRUE(warns(dipped(sphere, to_angle(95)), WarningCode::STRETCH_BEYOND_STOKES));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(65)), WarningCode::STRETCH_BEYOND_STOKES));
+  EXPECT_FALSE(
+      warns(dipped(sphere, to_angle(95, FilmModel::kSheet)), WarningCode::STRETCH_BEYOND_STOKES));
 }
 
 TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
@@ -51,10 +52,10 @@ TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
   const mesh::Model sphere = sample::icosphere(20, 4);
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
     DipOptions options = to_angle(120, model);
-    EXPECT_FALSE(warns(dipped(sphere, options), "film_torn"));
+    EXPECT_FALSE(warns(dipped(sphere, options), WarningCode::FILM_TORN));
     options.profile.tear_stretch = 1.8;
     const Dip torn = dipped(sphere, options);
-    EXPECT_TRUE(warns(torn, "film_torn"));
+    EXPECT_TRUE(warns(torn, WarningCode::FILM_TORN));
     // In an infinite film, the stretch exceeds 1.8 beyond 112.5 degrees. The clamped edge makes
     // this angle slightly smaller.
     const double share = (std::cos(1.9635) - std::cos(2 * std::numbers::pi / 3)) / 2;
@@ -67,8 +68,8 @@ TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
   // The stretch around the sphere is cos(theta / 2): 0.6 at 106 degrees.
   const mesh::Model sphere = sample::icosphere(20, 4);
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
-    EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), "film_wrinkled"));
-    EXPECT_TRUE(warns(dipped(sphere, to_angle(118, model)), "film_wrinkled"));
+    EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), WarningCode::FILM_WRINKLED));
+    EXPECT_TRUE(warns(dipped(sphere, to_angle(118, model)), WarningCode::FILM_WRINKLED));
   }
 }
 
@@ -92,7 +93,7 @@ TEST(Warnings, FilmWrinkledComesWithAPicture) {
     ASSERT_TRUE(simulation) << simulation.error().message;
     const auto& wrinkles = simulation->images->wrinkles;
     EXPECT_EQ(wrinkles.has_value(), theta_deg > 106);
-    EXPECT_EQ(warns(simulation->dip, "film_wrinkled"), wrinkles.has_value());
+    EXPECT_EQ(warns(simulation->dip, WarningCode::FILM_WRINKLED), wrinkles.has_value());
     if (!wrinkles) continue;
     EXPECT_EQ(wrinkles->width, simulation->images->stretch.width);
     EXPECT_NE(wrinkles->rgb, simulation->images->stretch.rgb);
@@ -101,35 +102,36 @@ TEST(Warnings, FilmWrinkledComesWithAPicture) {
 
 TEST(Warnings, ThetaClampedIsForFacesThatFaceUp) {
   // The cone has a level top. The spindle is pointed at both ends.
-  EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), "theta_clamped"));
+  EXPECT_TRUE(
+      warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), WarningCode::THETA_CLAMPED));
   const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
-  EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), "theta_clamped"));
+  EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), WarningCode::THETA_CLAMPED));
 }
 
 TEST(Warnings, PartsNotReachedIsForPartsThatStayDry) {
   const mesh::Model spindle = bodies::turned({{0, 0}, {24, 24}, {0, 48}}, 48);
   DipOptions options = options_on("150x150");
-  EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
+  EXPECT_FALSE(warns(dipped(spindle, options), WarningCode::PARTS_NOT_REACHED));
   options.depth_mm = 24;
   const Dip half = dipped(spindle, options);
-  EXPECT_TRUE(warns(half, "parts_not_reached"));
+  EXPECT_TRUE(warns(half, WarningCode::PARTS_NOT_REACHED));
   EXPECT_NEAR(half.figures.coverage, 0.5, 0.03);
 }
 
 TEST(Warnings, FilmEdgeReachedIsForObjectsWiderThanTheFilm) {
   const mesh::Model cone = bodies::cone(std::numbers::pi / 4, 20, 48);
-  EXPECT_TRUE(warns(dipped(cone, options_on("30x80")), "film_edge_reached"));
-  EXPECT_FALSE(warns(dipped(cone, options_on("60x80")), "film_edge_reached"));
+  EXPECT_TRUE(warns(dipped(cone, options_on("30x80")), WarningCode::FILM_EDGE_REACHED));
+  EXPECT_FALSE(warns(dipped(cone, options_on("60x80")), WarningCode::FILM_EDGE_REACHED));
 }
 
 TEST(Warnings, DragIgnoredIsForStokes) {
   const mesh::Model sphere = sample::icosphere(20, 3);
   DipOptions with_drag = to_angle(40);
   with_drag.profile.drag_length_mm = 30;
-  EXPECT_TRUE(warns(dipped(sphere, with_drag), "drag_ignored"));
-  EXPECT_FALSE(warns(dipped(sphere, to_angle(40)), "drag_ignored"));
+  EXPECT_TRUE(warns(dipped(sphere, with_drag), WarningCode::DRAG_IGNORED));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(40)), WarningCode::DRAG_IGNORED));
   with_drag.film_model = FilmModel::kSheet;
-  EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
+  EXPECT_FALSE(warns(dipped(sphere, with_drag), WarningCode::DRAG_IGNORED));
 }
 
 // Tested with numbers instead of a body: slits that are too narrow to mesh are closed beforehand,
@@ -138,9 +140,9 @@ TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
   EXPECT_TRUE(warnings_of_motion(20, {}, 0).empty());
   const Warnings some = warnings_of_motion(18, {3.5, 7}, 0);
   ASSERT_EQ(some.size(), 1U);
-  EXPECT_EQ(some[0].code, "waterlines_passed_over");
+  EXPECT_EQ(some[0].code, WarningCode::WATERLINES_PASSED_OVER);
   EXPECT_TRUE(some[0].message.starts_with("2 of 20 waterlines")) << some[0].message;
-  EXPECT_TRUE(some[0].where.starts_with("3.5")) << some[0].where;
+  EXPECT_TRUE(words_of(some[0].where).starts_with("3.5")) << words_of(some[0].where);
 }
 
 TEST(Warnings, WaterlinesLimitedNamesTheEffectsAndTheWorstPlace) {
@@ -151,8 +153,8 @@ TEST(Warnings, WaterlinesLimitedNamesTheEffectsAndTheWorstPlace) {
   figures.coarse.unresolved = {{20, 21}, {3, 3.5}};
   const Warnings some = warnings_of_waterline(figures, DipOptions{});
   ASSERT_EQ(some.size(), 1U);
-  EXPECT_EQ(some.front().code, "waterlines_limited");
-  EXPECT_EQ(some.front().where, "20.50 mm immersion");
+  EXPECT_EQ(some.front().code, WarningCode::WATERLINES_LIMITED);
+  EXPECT_EQ(words_of(some.front().where), "20.50 mm immersion");
   for (const char* part : {"800 waterlines", "1.5 times", "2 small level", "2 changes", "1 mm"}) {
     EXPECT_NE(some.front().message.find(part), std::string::npos) << part;
   }
@@ -163,9 +165,9 @@ TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
   const Result<mesh::Model> bend = sample::make_model("ubend");
   ASSERT_TRUE(bend) << bend.error().message;
   DipOptions options = options_on("A4", FilmModel::kSheet);
-  EXPECT_TRUE(warns(dipped(*bend, options), "sheet_unsettled"));
+  EXPECT_TRUE(warns(dipped(*bend, options), WarningCode::SHEET_UNSETTLED));
   options.depth_mm = 20;
-  EXPECT_FALSE(warns(dipped(*bend, options), "sheet_unsettled"));
+  EXPECT_FALSE(warns(dipped(*bend, options), WarningCode::SHEET_UNSETTLED));
 }
 
 // --- trapped film and air
@@ -178,14 +180,14 @@ double round_area_mm2(double radius_mm) {
 /// Whether there is a warning of air in a cavity, as opposed to air under a level face.
 bool warns_of_cavity(const Dip& dip) {
   return std::any_of(dip.warnings.begin(), dip.warnings.end(), [](const Warning& w) {
-    return w.code == "air_trapped" && w.message.find("cm3 of air") != std::string::npos;
+    return w.code == WarningCode::AIR_TRAPPED && w.message.find("cm3 of air") != std::string::npos;
   });
 }
 
 TEST(Warnings, ARingTrapsFilmButNoAir) {
   const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options_on("100x90"));
-  EXPECT_TRUE(warns(ring, "film_trapped"));
-  EXPECT_FALSE(warns(ring, "air_trapped"));
+  EXPECT_TRUE(warns(ring, WarningCode::FILM_TRAPPED));
+  EXPECT_FALSE(warns(ring, WarningCode::AIR_TRAPPED));
   ASSERT_EQ(ring.figures.traps.size(), 1U);
   const waterline::Trap& trap = ring.figures.traps[0];
   EXPECT_LT(trap.immersion_mm, 0.1);
@@ -203,14 +205,14 @@ TEST(Warnings, ARingWithAGapTrapsNothing) {
                                            return !is_gap && !(i == 1 && j == 1);
                                          }),
                           options_on("100x90"));
-  EXPECT_FALSE(warns(open, "film_trapped"));
+  EXPECT_FALSE(warns(open, WarningCode::FILM_TRAPPED));
   EXPECT_FALSE(warns_of_cavity(open));
 }
 
 TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
   // The inner radius is 14 mm, and the ceiling is 20 mm above the mouth.
   const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_on("100x90"));
-  EXPECT_TRUE(warns(down, "film_trapped"));
+  EXPECT_TRUE(warns(down, WarningCode::FILM_TRAPPED));
   EXPECT_TRUE(warns_of_cavity(down));
   ASSERT_EQ(down.figures.traps.size(), 1U);
   const waterline::Trap& trap = down.figures.traps[0];
@@ -218,14 +220,15 @@ TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
   ASSERT_TRUE(trap.ceiling_mm);
   EXPECT_NEAR(*trap.ceiling_mm, 20, 0.05);
   EXPECT_NEAR(trap.air_mm3, 20 * round_area_mm2(14), 20);
-  EXPECT_NE(warning_of(down, "air_trapped").message.find("12.3 cm3"), std::string::npos)
-      << warning_of(down, "air_trapped").message;
-  EXPECT_NE(warning_of(down, "air_trapped").where.find("mm immersion"), std::string::npos);
+  EXPECT_NE(warning_of(down, WarningCode::AIR_TRAPPED).message.find("12.3 cm3"), std::string::npos)
+      << warning_of(down, WarningCode::AIR_TRAPPED).message;
+  EXPECT_TRUE(
+      std::holds_alternative<FilmPoint>(warning_of(down, WarningCode::AIR_TRAPPED).where.place));
 }
 
 TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
   const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_on("100x90"));
-  EXPECT_FALSE(warns(up, "film_trapped"));
+  EXPECT_FALSE(warns(up, WarningCode::FILM_TRAPPED));
   EXPECT_FALSE(warns_of_cavity(up));
   // A square cup with its mouth down and a hole in its bottom.
   const Dip vented =
@@ -235,7 +238,7 @@ TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
                               return is_wall || (k == 1 && !(i == 2 && j == 2));
                             }),
              options_on("100x90"));
-  EXPECT_TRUE(warns(vented, "film_trapped"));
+  EXPECT_TRUE(warns(vented, WarningCode::FILM_TRAPPED));
   EXPECT_FALSE(warns_of_cavity(vented));
 }
 
@@ -245,8 +248,8 @@ TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
   const Dip cup = dipped(bodies::cup(14, 18, 24, 4, false, 64), options);
   EXPECT_TRUE(warns_of_cavity(cup));
   const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options);
-  EXPECT_TRUE(warns(ring, "film_trapped"));
-  EXPECT_FALSE(warns(ring, "air_trapped"));
+  EXPECT_TRUE(warns(ring, WarningCode::FILM_TRAPPED));
+  EXPECT_FALSE(warns(ring, WarningCode::AIR_TRAPPED));
 }
 
 TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
@@ -267,7 +270,7 @@ TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
       dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 16, 20},
                             [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),
              options_on("100x90"));
-  EXPECT_FALSE(warns(table, "film_trapped"));
+  EXPECT_FALSE(warns(table, WarningCode::FILM_TRAPPED));
   EXPECT_FALSE(warns_of_cavity(table));
 }
 
@@ -277,7 +280,7 @@ TEST(Warnings, AClosedCavityIsNotATrap) {
       dipped(bodies::together({bodies::box({-15, -15, 0}, {15, 15, 20}),
                                bodies::inside_out(bodies::box({-8, -8, 5}, {8, 8, 15}))}),
              options_on("100x90"));
-  EXPECT_FALSE(warns(hollow, "film_trapped"));
+  EXPECT_FALSE(warns(hollow, WarningCode::FILM_TRAPPED));
   EXPECT_FALSE(warns_of_cavity(hollow));
 }
 

@@ -108,7 +108,7 @@ TEST(Layout, AFilmOfThePapersSizeWarnsOfDroppedMarks) {
   EXPECT_TRUE(layout.sheets[0].marks.empty());
   EXPECT_EQ(layout.sheets[0].dropped.size(), 6U);
   ASSERT_EQ(layout.warnings.size(), 1U);
-  EXPECT_EQ(layout.warnings[0].code, "marks_dropped");
+  EXPECT_EQ(layout.warnings[0].code, WarningCode::MARKS_DROPPED);
   EXPECT_NE(layout.warnings[0].message.find("upright ruler"), std::string::npos);
 }
 
@@ -170,7 +170,7 @@ TEST(Layout, LongJobNamesAreShortenedBeforeDateAndSheetNumber) {
       EXPECT_TRUE(text.starts_with("globe 12 ÅÄÖ")) << text;
       EXPECT_NE(text.find("…  2025-03-14"), std::string::npos) << text;
     }
-    EXPECT_EQ(layout.warnings.at(0).code, "text_shortened");
+    EXPECT_EQ(layout.warnings.at(0).code, WarningCode::TEXT_SHORTENED);
   }
 }
 
@@ -192,7 +192,7 @@ TEST(Layout, CharactersThatTheFontLacksAreWarnedOfOnce) {
   const Layout layout = laid("500x200", settings);
   ASSERT_GT(layout.sheets.size(), 1U);
   ASSERT_EQ(layout.warnings.size(), 1U);
-  EXPECT_EQ(layout.warnings[0].code, "text_glyph_missing");
+  EXPECT_EQ(layout.warnings[0].code, WarningCode::TEXT_GLYPH_MISSING);
   EXPECT_NE(layout.warnings[0].message.find("'漢' (U+6F22), '字' (U+5B57)"), std::string::npos);
 }
 

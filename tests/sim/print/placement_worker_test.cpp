@@ -64,11 +64,11 @@ TEST_F(Template, ShowsFirstContactAtThePoseAndAtExactScale) {
   const Ended ended = run({"--pose", path("pose.json")});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(bytes_of(path("out/report.json")));
-  EXPECT_NEAR(report["placement"]["contact_mm"][0], 25, 1e-3);
-  EXPECT_NEAR(report["placement"]["contact_mm"][1], -23, 1e-3);
+  EXPECT_NEAR(report["contact_mm"][0], 25, 1e-3);
+  EXPECT_NEAR(report["contact_mm"][1], -23, 1e-3);
   // 0.5 mm above its tip, the pyramid has a hundredth of its size at the top.
-  EXPECT_NEAR(report["placement"]["contact_size_mm"][0], 0.6, 1e-3);
-  EXPECT_NEAR(report["placement"]["contact_size_mm"][1], 0.4, 1e-3);
+  EXPECT_NEAR(report["contact_size_mm"][0], 0.6, 1e-3);
+  EXPECT_NEAR(report["contact_size_mm"][1], 0.4, 1e-3);
   const std::string trace = traced_by_mupdf(path("out/placement.pdf"));
   const Extent contact = extent_of_strokes(trace, 0.6);
   EXPECT_NEAR(contact.x0, 105 + 25 - 0.3, 1e-2);

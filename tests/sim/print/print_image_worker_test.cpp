@@ -185,8 +185,8 @@ TEST_F(PrintImage, CmykIsUnchangedInPdfAndTiffAndRespectsTheInkLimit) {
         std::tuple{limited, std::array<int, 4>{0, 153, 153, 0},
                    std::array<int, 4>{47, 0, 94, 165}}}) {
     const auto report = print(flags);
-    EXPECT_EQ(report["print"]["colours"], "cmyk");
-    EXPECT_NEAR(report["print"]["most_ink"], (flags == small ? 510 : 306) / 255.0, 1e-9);
+    EXPECT_EQ(report["colours"], "COLOURS_CMYK");
+    EXPECT_NEAR(report["most_ink"], (flags == small ? 510 : 306) / 255.0, 1e-9);
     for (const std::string name : {"out/print.pdf", "out/print.tif"}) {
       const Raster inks = inks_by_mupdf(path(name), 100);
       ASSERT_EQ(inks.channels, 4) << name;
@@ -211,7 +211,7 @@ TEST_F(PrintImage, TilesJoinToTheOriginalImage) {
   image::RgbImage joined = blank(1181, 827);
   std::vector<int> times(1181 * 827);
   int number = 0;
-  for (const auto& sheet : report["print"]["sheets"]) {
+  for (const auto& sheet : report["sheets"]) {
     const auto part = image::read_image(path("out/print-" + std::to_string(++number) + ".png"), {});
     ASSERT_TRUE(part);
     const int x0 = sheet["window_px"][0], y0 = sheet["window_px"][1];
@@ -271,15 +271,16 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   fill(image, 400, 500, 500, 600, {0, 0, 255});
   film(image);
   // The only warning is about marks.
-  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);
+  EXPECT_EQ(print({"--printer-margin-mm", "5"})["run"]["warnings"].size(), 1U);
   fill(image, 0, 500, 400, 600, {0, 0, 255});
   film(image);
   const auto report = print({"--printer-margin-mm", "5", "--formats", "png"});
-  ASSERT_EQ(report["warnings"].size(), 2U);
-  EXPECT_EQ(report["warnings"][1]["code"], "image_in_printer_margin");
-  EXPECT_EQ(report["warnings"][1]["where"], "sheet 1: left");
+  const auto& warnings = report["run"]["warnings"];
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[1]["code"], "IMAGE_IN_PRINTER_MARGIN");
+  EXPECT_EQ(warnings[1]["where"]["sheet"], 1);
   // 5 mm of a strip 25.4 mm high, rounded to whole pixels.
-  EXPECT_NEAR(report["print"]["cut_off_mm2"], 5 * 25.4, 0.254 * 25.4);
+  EXPECT_NEAR(report["cut_off_mm2"], 5 * 25.4, 0.254 * 25.4);
   const auto read = image::read_image(path("out/print.png"), {});
   std::vector<std::uint8_t> row(3U * 827);
   image::srgb8_row(read->image, 550, row.data());
@@ -293,8 +294,8 @@ TEST_F(PrintImage, AnUncertainPoseIsAWarningBeforeAnythingIsPrinted) {
   const auto sure = print({"--film", "30x30", "--pose", path("sure.json")});
   folder.write("unsure.json", R"({"translation_mm": [0, 0, 0], "error_p95_mm": 4})");
   const auto unsure = print({"--film", "30x30", "--pose", path("unsure.json")});
-  EXPECT_EQ(unsure["warnings"].size(), sure["warnings"].size() + 1);
-  EXPECT_EQ(unsure["warnings"][0]["code"], "pose_uncertain");
+  EXPECT_EQ(unsure["run"]["warnings"].size(), sure["run"]["warnings"].size() + 1);
+  EXPECT_EQ(unsure["run"]["warnings"][0]["code"], "POSE_UNCERTAIN");
 }
 
 TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
@@ -304,7 +305,8 @@ TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
   EXPECT_NE(ended.err.find("so these are left out"), std::string::npos) << ended.err;
   EXPECT_EQ(traced_by_mupdf(path("out/print.pdf")).find("stroke_path"), std::string::npos);
   testing::run(command({"--no-marks"}, "silent"));
-  EXPECT_EQ(nlohmann::json::parse(bytes_of(path("silent/report.json")))["warnings"].size(), 0U);
+  EXPECT_EQ(nlohmann::json::parse(bytes_of(path("silent/report.json")))["run"]["warnings"].size(),
+            0U);
 }
 
 TEST_F(PrintImage, TheProfileIsEmbedded) {

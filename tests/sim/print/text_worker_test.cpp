@@ -59,7 +59,7 @@ class PageText : public ::testing::Test {
     return ended.out;
   }
   [[nodiscard]] nlohmann::json warnings() const {
-    return nlohmann::json::parse(bytes_of(path("out/report.json")))["warnings"];
+    return nlohmann::json::parse(bytes_of(path("out/report.json")))["run"]["warnings"];
   }
 
   testing::TemporaryFolder folder;
@@ -180,7 +180,7 @@ TEST_F(PageText, CharactersThatTheFontLacksAreReplacedAndNamed) {
             std::string::npos)
       << ended.err;
   ASSERT_EQ(warnings().size(), 1U);
-  EXPECT_EQ(warnings()[0]["code"], "text_glyph_missing");
+  EXPECT_EQ(warnings()[0]["code"], "TEXT_GLYPH_MISSING");
   EXPECT_NE(warnings()[0]["message"].get<std::string>().find("(U+1F9D9)"), std::string::npos);
   EXPECT_NE(text_of("out/print.pdf").find("Mug \uFFFD\uFFFD \uFFFD 7"), std::string::npos);
   const Raster page = drawn_by_poppler(path("out/print.pdf"), 300);
@@ -207,7 +207,7 @@ TEST_F(PageText, MalformedTextIsReplacedAndWarnedOf) {
                                 "Mug \xF0\x9F\xA6\x8A\x8A"}) {
     print(bad);
     ASSERT_EQ(warnings().size(), 1U);
-    EXPECT_EQ(warnings()[0]["code"], "text_glyph_missing");
+    EXPECT_EQ(warnings()[0]["code"], "TEXT_GLYPH_MISSING");
     EXPECT_NE(text_of("out/print.pdf").find("\uFFFD"), std::string::npos);
   }
 }

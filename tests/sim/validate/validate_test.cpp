@@ -14,7 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/image/io/image_file.h"
+#include "tests/sim/worker/report_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
 #include "tests/support/timing.h"
@@ -95,8 +97,9 @@ INSTANTIATE_TEST_SUITE_P(All, QuickReport, ::testing::Values(kExperiments));
 
 TEST_P(QuickReport, HasExactlyTheExperimentsAndTheirPictures) {
   const json all = run.report();
-  EXPECT_EQ(all.at("verb"), "validate");
-  EXPECT_EQ(all.at("parameters").at("quick"), true);
+  (void)testing::read_message<v1::ValidateReport>(run.out() / "report.json");
+  EXPECT_EQ(all.at("run").at("verb"), "validate");
+  EXPECT_EQ(all.at("quick"), true);
   std::vector<std::string> names;
   std::set<std::string> files = {"report.html", "report.json"};
   for (const json& experiment : all.at("experiments")) {
@@ -110,7 +113,7 @@ TEST_P(QuickReport, HasExactlyTheExperimentsAndTheirPictures) {
   EXPECT_EQ(names, experiments);
   EXPECT_EQ(names_in(run.out()), files);
   std::set<std::string> told = {"report.json"};
-  for (const json& name : all.at("artifacts")) told.insert(name);
+  for (const json& name : all.at("run").at("artifacts")) told.insert(name);
   EXPECT_EQ(told, files);
   EXPECT_EQ(names_in(run.folder.path()), std::set<std::string>{"out"});
 }
@@ -182,7 +185,7 @@ TEST_P(QuickReport, CountsPassedFigures) {
   }
   EXPECT_EQ(run.report().at("passed"), passed);
   EXPECT_EQ(run.report().at("failed"), failed);
-  const json summary = json::parse(run.ended.out);
+  const json summary = json::parse(run.ended.out).at("report");
   EXPECT_EQ(summary.at("passed"), passed);
   EXPECT_EQ(summary.at("failed"), failed);
   EXPECT_GT(passed, experiments == kSample ? 4 : 10);

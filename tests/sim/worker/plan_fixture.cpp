@@ -1,13 +1,14 @@
 #include "tests/sim/worker/plan_fixture.h"
 
 #include <fmt/format.h>
-#include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
 #include <cstring>
 #include <sstream>
 
+#include "proto/warning_message.h"
 #include "tests/sim/worker/bodies.h"
+#include "tests/sim/worker/report_file.h"
 #include "tests/support/paths.h"
 
 namespace hydroprint::worker {
@@ -137,19 +138,16 @@ Arguments PlanWorker::plan(const Arguments& more) const {
 v1::PlanReport PlanWorker::planned(const Arguments& more) const {
   const Ended ended = testing::run(plan(more));
   EXPECT_EQ(ended.status, 0) << ended.err;
-  v1::PlanReport report;
-  if (ended.status != 0) return report;
-  const auto status =
-      google::protobuf::util::JsonStringToMessage(content(out() + "/report.json"), &report);
-  EXPECT_TRUE(status.ok()) << status.ToString();
-  return report;
+  if (ended.status != 0) return {};
+  return testing::read_message<v1::PlanReport>(out() + "/report.json");
 }
 
 std::set<std::string> PlanWorker::warned(const v1::PlanReport& report) {
   std::set<std::string> out;
-  for (const v1::ReportWarning& warning : report.warnings()) {
-    EXPECT_NE(warning.code(), v1::ReportWarning::CODE_UNSPECIFIED) << warning.message();
-    out.insert(v1::ReportWarning::Code_Name(warning.code()) + " " + warning.where());
+  for (const v1::Warning& message : report.run().warnings()) {
+    const Warning warning = to_warning(message);
+    EXPECT_NE(warning.code, WarningCode::CODE_UNSPECIFIED) << warning.message;
+    out.insert(std::string(name_of(warning.code)) + " " + words_of(warning.where));
   }
   return out;
 }

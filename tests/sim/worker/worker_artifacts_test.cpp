@@ -40,7 +40,7 @@ TEST_F(Worker, AnUncertainPoseIsTheFirstWarningOfASimulation) {
   const Ended ended = testing::run(simulate({"--pose", path("pose.json"), "--model", "stokes"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["warnings"][0]["code"], "pose_unconstrained");
+  EXPECT_EQ(report["run"]["warnings"][0]["code"], "POSE_UNCONSTRAINED");
   EXPECT_NE(ended.err.find("shift along x"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("calibrate again"), std::string::npos) << ended.err;
 }
@@ -65,8 +65,8 @@ TEST_F(Worker, AnEmbeddedPictureIsPrintedAndIsNotASeparateInput) {
       simulate({"--mesh", path("body.gltf"), "--scale", "20", "--model", "stokes"}, false));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  ASSERT_EQ(report["inputs"].size(), 1u);
-  EXPECT_EQ(report["inputs"][0]["role"], "mesh");
+  ASSERT_EQ(report["run"]["inputs"].size(), 1u);
+  EXPECT_EQ(report["run"]["inputs"][0]["role"], "mesh");
   const auto film = image::read_image(out() + "/film.png", {});
   ASSERT_TRUE(film) << film.error().message;
   const auto& texels = film->image.texels;
@@ -153,7 +153,7 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
       is_bare = is_bare || std::isnan(ply.vertices[corner][3]);
     }
     EXPECT_EQ((ply.flags[t] & 8) != 0, is_bare) << t;
-    all_flags.insert(ply.flags[t]);
+    all_flags.insert(ply.flags[t] & 31);  // the error may have no bound
   }
   EXPECT_EQ(all_flags, (std::set<int>{0, 8, 12}));
 }
@@ -166,10 +166,10 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
                              "--profile", path("film.toml"), "--depth-mm", "10", "--json"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["program"], "hydroprint-worker");
-  EXPECT_EQ(report["verb"], "simulate");
+  EXPECT_EQ(report["run"]["program"], "hydroprint-worker");
+  EXPECT_EQ(report["run"]["verb"], "simulate");
   std::map<std::string, nlohmann::json> inputs;
-  for (const auto& input : report["inputs"]) inputs[input["role"]] = input;
+  for (const auto& input : report["run"]["inputs"]) inputs[input["role"]] = input;
   for (const std::string role : {"mesh", "texture", "pose", "profile"}) {
     ASSERT_TRUE(inputs.count(role)) << role;
     EXPECT_EQ(inputs[role]["sha256"].get<std::string>().size(), 64u);
@@ -177,14 +177,15 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   }
   const auto& parameters = report["parameters"];
   EXPECT_EQ(parameters["dpi"], 100);
-  EXPECT_EQ(parameters["depth_mm"], 10);
-  EXPECT_EQ(parameters["model"], "sheet");
-  EXPECT_EQ(parameters["profile"]["thickness_mm"], 0.25);
-  EXPECT_EQ(parameters["film"]["name"], "60x70");
-  EXPECT_EQ(parameters["pose"]["rotation_wxyz"], (std::vector<double>{1, 0, 0, 0}));
-  EXPECT_EQ(parameters["pose"]["translation_mm"][0], 3);
-  EXPECT_EQ(parameters["pose"]["translation_mm"][1], -4);
-  EXPECT_NEAR(parameters["pose"]["translation_mm"][2].get<double>(), 12, 1e-5);
+  EXPECT_EQ(parameters["model"], "MODEL_SHEET");
+  const auto& dip = parameters["dip"];
+  EXPECT_EQ(dip["depth_mm"], 10);
+  EXPECT_EQ(dip["profile"]["thickness_mm"], 0.25);
+  EXPECT_EQ(dip["film"]["name"], "60x70");
+  EXPECT_EQ(dip["pose"]["rotation_wxyz"], (std::vector<double>{1, 0, 0, 0}));
+  EXPECT_EQ(dip["pose"]["translation_mm"][0], 3);
+  EXPECT_EQ(dip["pose"]["translation_mm"][1], -4);
+  EXPECT_NEAR(dip["pose"]["translation_mm"][2].get<double>(), 12, 1e-5);
   EXPECT_EQ(report["mesh"]["triangles"], 2 * 24 * 11);
   ASSERT_EQ(report["mesh"]["shells"].size(), 1U);
   const auto& shell = report["mesh"]["shells"][0];
@@ -193,20 +194,17 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   EXPECT_EQ(shell["closed"], true);
   EXPECT_EQ(shell["rule"], "volume");
   EXPECT_EQ(shell["turned_over"], false);
-  EXPECT_GT(report["steps"], 5);
-  EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
-  EXPECT_NEAR(report["depth_mm"].get<double>(), 10, 1e-9);
-  EXPECT_NEAR(report["coverage"].get<double>(), 10.0 / 24, 0.05)
+  EXPECT_GT(report["run"]["peak_memory_bytes"], 1 << 20);
+  const auto& flow = report["flow"];
+  EXPECT_GT(flow["steps"], 5);
+  EXPECT_NEAR(flow["depth_mm"].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(flow["coverage"].get<double>(), 10.0 / 24, 0.05)
       << "the wetted share of a sphere equals the immersed share of its height";
-  EXPECT_GE(report["stretch"]["max"], report["stretch"]["p95"]);
-  EXPECT_GE(report["stretch"]["p95"], report["stretch"]["p50"]);
-  for (const auto& warning : report["warnings"]) {
-    EXPECT_TRUE(warning.contains("code") && warning.contains("message") &&
-                warning.contains("where"));
-  }
+  EXPECT_GE(flow["stretch"]["max"], flow["stretch"]["p95"]);
+  EXPECT_GE(flow["stretch"]["p95"], flow["stretch"]["p50"]);
   const auto summary = nlohmann::json::parse(ended.out);
   EXPECT_EQ(summary["out"], out());
-  EXPECT_EQ(summary["coverage"], report["coverage"]);
+  EXPECT_EQ(summary["report"], report);
 }
 
 // The clock also runs between the last stage and the total. A busy machine may interrupt the
@@ -216,8 +214,8 @@ TEST_F(Worker, StageTimesAddUpToTheTotal) {
   for (int run = 0; run < 10 && rest_s > 0.05; ++run) {
     ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
     const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-    rest_s = report["total_seconds"].get<double>();
-    for (const auto& stage : report["stage_seconds"]) rest_s -= stage.get<double>();
+    rest_s = report["run"]["total_seconds"].get<double>();
+    for (const auto& stage : report["run"]["stage_seconds"]) rest_s -= stage.get<double>();
     EXPECT_GE(rest_s, -1e-6) << "stages do not overlap";
   }
   EXPECT_LE(rest_s, 0.05);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/mesh/read/read_model.h"
+#include "tests/sim/worker/report_file.h"
 #include "tests/sim/worker/worker_fixture.h"
 #include "tests/support/paths.h"
 #include "tests/support/value_of.h"
@@ -54,12 +56,13 @@ TEST_F(InspectWorker, StatesEachMaterialAndShowsIt) {
   EXPECT_EQ(shown.vertices[shown.triangles[0][1]], Eigen::Vector3d(60, 0, 0));
 }
 
-TEST_F(InspectWorker, JsonIsTheReport) {
+TEST_F(InspectWorker, JsonHasTheReport) {
   write_square(kMaterials);
   const Ended ended = testing::run(inspect({"--json"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(nlohmann::json::parse(ended.out),
+  EXPECT_EQ(nlohmann::json::parse(ended.out).at("report"),
             nlohmann::json::parse(content(out() + "/report.json")));
+  (void)testing::read_message<v1::ModelSummary>(out() + "/report.json");
 }
 
 TEST_F(InspectWorker, RefusesWithTheWordsOfSimulate) {

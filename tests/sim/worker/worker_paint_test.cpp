@@ -44,7 +44,7 @@ TEST_F(PaintWorker, ATextureNeedsNoTextureCoordinates) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.err.find("projected along the dip"), std::string::npos) << ended.err;
   const std::string report = content(folder.path() / "out" / "report.json");
-  EXPECT_NE(report.find("\"picture_projected\""), std::string::npos);
+  EXPECT_NE(report.find("\"PICTURE_PROJECTED\""), std::string::npos);
   EXPECT_NE(report.find("\"projection\": \"dip\""), std::string::npos) << report;
 }
 

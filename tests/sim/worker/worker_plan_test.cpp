@@ -60,7 +60,8 @@ TEST_F(PlanWorker, TwoOppositeDipsShareASphere) {
   }
   EXPECT_EQ(names_in(out()), expected);
   expected.erase("report.json");
-  EXPECT_EQ(std::set<std::string>(report.artifacts().begin(), report.artifacts().end()), expected);
+  EXPECT_EQ(std::set<std::string>(report.run().artifacts().begin(), report.run().artifacts().end()),
+            expected);
 
   ASSERT_EQ(report.immersions_size(), 2);
   for (const v1::PlanReport::Dip& dip : report.immersions()) {
@@ -73,9 +74,9 @@ TEST_F(PlanWorker, TwoOppositeDipsShareASphere) {
   }
   EXPECT_NEAR(report.seam_mm(), 2 * std::numbers::pi * 12, 2);
   EXPECT_EQ(report.unreached_share(), 0);
-  EXPECT_GT(report.total_seconds(), 0);
-  EXPECT_EQ(report.inputs(0).sha256(), report.parameters().mesh_sha256());
-  EXPECT_EQ(report.inputs(2).role(), "immersions");
+  EXPECT_GT(report.run().total_seconds(), 0);
+  EXPECT_EQ(report.run().inputs(0).sha256(), report.parameters().mesh_sha256());
+  EXPECT_EQ(report.run().inputs(2).role(), "immersions");
 }
 
 TEST_F(PlanWorker, PointsOfTheFileComeFirstWithWeightsThatSumToOne) {
@@ -144,9 +145,9 @@ TEST_F(PlanWorker, CavityThatNoDipReachesIsToldWithItsShare) {
   EXPECT_NEAR(report.unreached_share(), 0.2, 0.005);  // 6 mm and 12 mm: a quarter of the outer area
   EXPECT_TRUE(warned(report).contains("PARTS_NOT_REACHED surface"));
   const auto found =
-      std::find_if(report.warnings().begin(), report.warnings().end(),
-                   [](const auto& w) { return w.code() == v1::ReportWarning::PARTS_NOT_REACHED; });
-  ASSERT_NE(found, report.warnings().end());
+      std::find_if(report.run().warnings().begin(), report.run().warnings().end(),
+                   [](const auto& w) { return w.code() == v1::Warning::PARTS_NOT_REACHED; });
+  ASSERT_NE(found, report.run().warnings().end());
   EXPECT_NE(found->message().find("20"), std::string::npos) << found->message();
 }
 

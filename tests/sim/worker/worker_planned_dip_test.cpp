@@ -61,7 +61,7 @@ class PlannedDip : public PlanWorker {
 
   static std::set<std::string> codes(const json& report) {
     std::set<std::string> out;
-    for (const json& warning : report["warnings"]) out.insert(warning["code"]);
+    for (const json& warning : report["run"]["warnings"]) out.insert(warning["code"]);
     return out;
   }
 
@@ -86,10 +86,10 @@ TEST_F(PlannedDip, AtThePlannedPoseGivesThePlansFilm) {
     EXPECT_EQ(report["plan"]["immersion"], number);
     EXPECT_EQ(report["plan"]["immersions"], 2);
     EXPECT_EQ(report["plan"]["lost_share"], 0);
-    EXPECT_EQ(report["parameters"]["film"]["name"], "60x70") << "the plan's";
-    EXPECT_EQ(report["parameters"]["model"], "stokes") << "the plan's";
-    EXPECT_FALSE(codes(report).contains("parts_not_reached")) << "the other dip prints the rest";
-    for (const std::string& code : codes(report)) EXPECT_FALSE(code.starts_with("plan_")) << code;
+    EXPECT_EQ(report["parameters"]["dip"]["film"]["name"], "60x70") << "the plan's";
+    EXPECT_EQ(report["parameters"]["model"], "MODEL_STOKES") << "the plan's";
+    EXPECT_FALSE(codes(report).contains("PARTS_NOT_REACHED")) << "the other dip prints the rest";
+    for (const std::string& code : codes(report)) EXPECT_FALSE(code.starts_with("PLAN_")) << code;
   }
   std::set<std::string> found = names_in(out());
   found.erase("wrinkles.png");
@@ -103,17 +103,17 @@ TEST_F(PlannedDip, DifferencesFromThePlanAreMeasuredAndWarnedOf) {
   const json near = dipped(2, {"--pose", pose_file(4, 3)});
   EXPECT_NEAR(near["plan"]["turn_deg"].get<double>(), 4, 1e-6);
   EXPECT_NEAR(near["plan"]["shift_mm"][0].get<double>(), 3, 1e-6);
-  EXPECT_FALSE(codes(near).contains("plan_pose_off"));
+  EXPECT_FALSE(codes(near).contains("PLAN_POSE_OFF"));
   const json turned = dipped(2, {"--pose", pose_file(6, 0)});
-  EXPECT_TRUE(codes(turned).contains("plan_pose_off"));
-  EXPECT_TRUE(codes(dipped(2, {"--pose", pose_file(0, 11)})).contains("plan_pose_off"));
+  EXPECT_TRUE(codes(turned).contains("PLAN_POSE_OFF"));
+  EXPECT_TRUE(codes(dipped(2, {"--pose", pose_file(0, 11)})).contains("PLAN_POSE_OFF"));
   // Only one of the two dips is turned by 40 degrees, so the plane of equal stretch turns by 20: at
   // R = 12 mm, the seam moves by up to 4 mm.
   const json far = dipped(2, {"--pose", pose_file(40, 0)});
   EXPECT_NEAR(far["plan"]["seam_shift_mm"].get<double>(), 12 * std::sin(20 * M_PI / 180), 0.5);
-  EXPECT_TRUE(codes(far).contains("plan_seam_moved"));
+  EXPECT_TRUE(codes(far).contains("PLAN_SEAM_MOVED"));
   const json shallow = dipped(2, {"--depth-mm", "6"});
-  EXPECT_TRUE(codes(shallow).contains("plan_reach_lost"));
+  EXPECT_TRUE(codes(shallow).contains("PLAN_REACH_LOST"));
   // A cap of 6 mm has half the area of the half sphere of dip 2.
   EXPECT_NEAR(shallow["plan"]["lost_share"].get<double>(), 0.5, 0.1);
 }

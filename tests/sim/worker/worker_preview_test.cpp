@@ -2,6 +2,7 @@
 // turned.
 
 #include <fcntl.h>
+#include <google/protobuf/util/json_util.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "hydroprint/v1/warning.pb.h"
 #include "tests/sim/worker/bodies.h"
 #include "tests/sim/worker/worker_fixture.h"
 #include "tests/support/paths.h"
@@ -187,6 +189,17 @@ TEST_F(Preview, SendsTheLandingPointsOfThePlacesThatAreShown) {
   EXPECT_GT(below, 100);
   session.close_requests();
   EXPECT_EQ(session.wait().status, 0);
+}
+
+TEST_F(Preview, WarningsAreMessagesOfTheApi) {
+  Session session(preview());
+  const Answer whole = session.answer_to(turned(7, 0));  // its top faces up
+  ASSERT_FALSE(whole.head.at("warnings").empty());
+  for (const auto& entry : whole.head.at("warnings")) {
+    v1::Warning warning;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(entry.dump(), &warning).ok()) << entry;
+    EXPECT_NE(warning.code(), v1::Warning::CODE_UNSPECIFIED) << entry;
+  }
 }
 
 TEST_F(Preview, OfAVeryFineMeshMapsThePlacesThatAreShown) {

@@ -96,7 +96,8 @@ TEST_F(Worker, AClosedStdoutIsHarmless) {
   const Ended ended = testing::run(simulate({"--json"}), options);
   EXPECT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["verb"], "simulate") << "the summary must not be written into an artifact";
+  EXPECT_EQ(report["run"]["verb"], "simulate")
+      << "the summary must not be written into an artifact";
 }
 
 /// A run that was started and has reported progress. It takes half a minute of processor time if it

@@ -18,9 +18,9 @@ TEST_F(Worker, InkPassesAreReportedWithTheFilmsMoves) {
                 .status,
             0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["parameters"]["model"], "sheet");
+  EXPECT_EQ(report["parameters"]["model"], "MODEL_SHEET");
   EXPECT_EQ(report["parameters"]["ink_passes"], 2);
-  const auto& passes = report["ink_passes"];
+  const auto& passes = report["flow"]["ink_passes"];
   ASSERT_EQ(passes.size(), 2u);
   EXPECT_GT(passes[0]["moved_rms_mm"], 0);
   EXPECT_LT(passes[1]["moved_rms_mm"], 0.2 * passes[0]["moved_rms_mm"].get<double>());
@@ -32,7 +32,7 @@ TEST_F(Worker, InkPassesEndWhenTheFilmMovesByLessThanAPixel) {
       testing::run(simulate({"--texture", path("texture.png"), "--ink-passes", "9", "--dpi", "50"}))
           .status,
       0);
-  const auto passes = nlohmann::json::parse(content(out() + "/report.json"))["ink_passes"];
+  const auto passes = nlohmann::json::parse(content(out() + "/report.json"))["flow"]["ink_passes"];
   ASSERT_GE(passes.size(), 1u);
   EXPECT_LT(passes.size(), 9u);
   for (std::size_t i = 0; i < passes.size(); ++i) {
@@ -45,8 +45,8 @@ TEST_F(Worker, GivenInkReplacesPasses) {
   ASSERT_EQ(testing::run(simulate({"--ink-image", path("texture.png")})).status, 0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
   EXPECT_EQ(report["parameters"]["ink_passes"], 0);
-  EXPECT_TRUE(report["ink_passes"].empty());
-  const auto& inputs = report["inputs"];
+  EXPECT_TRUE(report["flow"]["ink_passes"].empty());
+  const auto& inputs = report["run"]["inputs"];
   EXPECT_TRUE(std::any_of(inputs.begin(), inputs.end(),
                           [](const auto& input) { return input["role"] == "ink_image"; }));
 }
@@ -56,11 +56,11 @@ TEST_F(Worker, StokesIgnoresInkAndWarnsThatItIgnoresDrag) {
   ASSERT_EQ(testing::run(simulate({"--model", "stokes", "--profile", path("film.toml")})).status,
             0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
-  EXPECT_EQ(report["parameters"]["model"], "stokes");
+  EXPECT_EQ(report["parameters"]["model"], "MODEL_STOKES");
   EXPECT_EQ(report["parameters"]["ink_passes"], 0);
-  const auto& warnings = report["warnings"];
+  const auto& warnings = report["run"]["warnings"];
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
-                          [](const auto& warning) { return warning["code"] == "drag_ignored"; }));
+                          [](const auto& warning) { return warning["code"] == "DRAG_IGNORED"; }));
 }
 
 /// Maps of a dip to the equator through a film with ink.

@@ -7,7 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "hydroprint/v1/report.pb.h"
 #include "sim/image/io/image_file.h"
+#include "tests/sim/worker/report_file.h"
 #include "tests/sim/worker/worker_fixture.h"
 #include "tests/support/paths.h"
 
@@ -20,12 +22,13 @@ using Json = nlohmann::json;
 /// report.json without times, memory and the pose file, because a spec contains its pose.
 std::string comparable(const std::string& report) {
   Json json = Json::parse(report);
-  for (const char* key : {"stage_seconds", "total_seconds", "peak_memory_bytes"}) json.erase(key);
+  Json& run = json["run"];
+  for (const char* key : {"stage_seconds", "total_seconds", "peak_memory_bytes"}) run.erase(key);
   Json inputs = Json::array();
-  for (const Json& input : json["inputs"]) {
+  for (const Json& input : run["inputs"]) {
     if (input["role"] != "pose") inputs.push_back(input);
   }
-  json["inputs"] = inputs;
+  run["inputs"] = inputs;
   return json.dump(1);
 }
 
@@ -42,6 +45,7 @@ class SpecRun : public Worker {
     folder.write("driven.csv", "t_s,x_mm,y_mm,z_mm\n0,0,0,0\n1,0.1,0.2,-5\n6,0,0,-30\n");
   }
 
+  template <class Report = v1::SimulateReport>
   [[nodiscard]] std::map<std::string, std::string> artifacts(const Arguments& arguments) const {
     Arguments command = {testing::program_path("hydroprint-worker")};
     command.insert(command.end(), arguments.begin(), arguments.end());
@@ -50,17 +54,19 @@ class SpecRun : public Worker {
     EXPECT_EQ(ended.status, 0) << ended.err;
     std::map<std::string, std::string> files;
     for (const std::string& name : names_in(out())) files[name] = content(out() + "/" + name);
+    (void)testing::read_message<Report>(out() + "/report.json");
     files["report.json"] = comparable(files["report.json"]);
     fs::remove_all(out());
     return files;
   }
 
+  template <class Report>
   void expect_same(const std::string& verb, Arguments flags, const Json& spec) const {
     SCOPED_TRACE(verb);
     folder.write("spec.json", spec.dump());
     flags.insert(flags.begin(), verb);
-    const auto by_flags = artifacts(flags);
-    const auto by_spec = artifacts({verb, "--spec", path("spec.json")});
+    const auto by_flags = artifacts<Report>(flags);
+    const auto by_spec = artifacts<Report>({verb, "--spec", path("spec.json")});
     EXPECT_GE(by_flags.size(), 2u);
     for (const auto& [name, bytes] : by_flags) {
       ASSERT_TRUE(by_spec.contains(name)) << name;
@@ -74,39 +80,39 @@ class SpecRun : public Worker {
 };
 
 TEST_F(SpecRun, OfSimulateMakesTheSameArtifactsAsFlags) {
-  expect_same("simulate",
-              {"--mesh",
-               path("sphere.obj"),
-               "--texture",
-               path("texture.png"),
-               "--profile",
-               path("film.toml"),
-               "--pose",
-               path("pose.json"),
-               "--scale",
-               "1.1",
-               "--film",
-               "polygon:" + path("edge.json"),
-               "--dpi",
-               "100",
-               "--depth-mm",
-               "9.7",
-               "--dip-speed-mm-per-s",
-               "7",
-               "--threads",
-               "1"},
-              {{"mesh", {{"name", "sphere.obj"}, {"asset", "assets/ignored"}}},
-               {"texture", {{"name", "texture.png"}}},
-               {"extraFiles", {{{"name", "edge.json"}}}},
-               {"profile", {{"name", "film.toml"}}},
-               {"pose", pose_},
-               {"scale", 1.1},
-               {"film", "polygon:edge.json"},
-               {"dpi", 100},
-               {"depthMm", 9.7},
-               {"dipSpeedMmPerS", 7},
-               {"threads", 1}});
-  expect_same(
+  expect_same<v1::SimulateReport>("simulate",
+                                  {"--mesh",
+                                   path("sphere.obj"),
+                                   "--texture",
+                                   path("texture.png"),
+                                   "--profile",
+                                   path("film.toml"),
+                                   "--pose",
+                                   path("pose.json"),
+                                   "--scale",
+                                   "1.1",
+                                   "--film",
+                                   "polygon:" + path("edge.json"),
+                                   "--dpi",
+                                   "100",
+                                   "--depth-mm",
+                                   "9.7",
+                                   "--dip-speed-mm-per-s",
+                                   "7",
+                                   "--threads",
+                                   "1"},
+                                  {{"mesh", {{"name", "sphere.obj"}, {"asset", "assets/ignored"}}},
+                                   {"texture", {{"name", "texture.png"}}},
+                                   {"extraFiles", {{{"name", "edge.json"}}}},
+                                   {"profile", {{"name", "film.toml"}}},
+                                   {"pose", pose_},
+                                   {"scale", 1.1},
+                                   {"film", "polygon:edge.json"},
+                                   {"dpi", 100},
+                                   {"depthMm", 9.7},
+                                   {"dipSpeedMmPerS", 7},
+                                   {"threads", 1}});
+  expect_same<v1::SimulateReport>(
       "simulate",
       {"--mesh", path("sphere.obj"), "--film", "60x70", "--model", "stokes", "--artifacts", "map"},
       {{"mesh", {{"name", "sphere.obj"}}},
@@ -116,60 +122,61 @@ TEST_F(SpecRun, OfSimulateMakesTheSameArtifactsAsFlags) {
 }
 
 TEST_F(SpecRun, OfPredictMakesTheSameArtifactsAsFlags) {
-  expect_same("predict",
-              {"--mesh", path("sphere.obj"), "--film-image", path("film.png"), "--motion",
-               path("driven.csv"), "--film", "60x70", "--ink-passes", "0"},
-              {{"mesh", {{"name", "sphere.obj"}}},
-               {"film_image", {{"name", "film.png"}}},
-               {"motion", {{"name", "driven.csv"}}},
-               {"film", "60x70"},
-               {"ink_passes", 0}});
+  expect_same<v1::PredictReport>(
+      "predict",
+      {"--mesh", path("sphere.obj"), "--film-image", path("film.png"), "--motion",
+       path("driven.csv"), "--film", "60x70", "--ink-passes", "0"},
+      {{"mesh", {{"name", "sphere.obj"}}},
+       {"film_image", {{"name", "film.png"}}},
+       {"motion", {{"name", "driven.csv"}}},
+       {"film", "60x70"},
+       {"ink_passes", 0}});
 }
 
 TEST_F(SpecRun, OfPrintImageMakesTheSameArtifactsAsFlags) {
-  expect_same("print-image",
-              {"--film-image",
-               path("film.png"),
-               "--film",
-               "60x70",
-               "--colours",
-               "cmyk",
-               "--ink-limit",
-               "3",
-               "--job-name",
-               "mug 7",
-               "--date",
-               "2025-03-14",
-               "--bar-mm",
-               "20",
-               "--printer-margin-mm",
-               "4",
-               "--mirror",
-               "--no-marks",
-               "--formats",
-               "pdf,tiff"},
-              {{"filmImage", {{"name", "film.png"}}},
-               {"film", "60x70"},
-               {"colours", "COLOURS_CMYK"},
-               {"inkLimit", 3},
-               {"jobName", "mug 7"},
-               {"date", "2025-03-14"},
-               {"barMm", 20},
-               {"printerMarginMm", 4},
-               {"mirror", true},
-               {"noMarks", true},
-               {"formats", {"pdf", "tiff"}}});
+  expect_same<v1::PrintImageReport>("print-image",
+                                    {"--film-image",
+                                     path("film.png"),
+                                     "--film",
+                                     "60x70",
+                                     "--colours",
+                                     "cmyk",
+                                     "--ink-limit",
+                                     "3",
+                                     "--job-name",
+                                     "mug 7",
+                                     "--date",
+                                     "2025-03-14",
+                                     "--bar-mm",
+                                     "20",
+                                     "--printer-margin-mm",
+                                     "4",
+                                     "--mirror",
+                                     "--no-marks",
+                                     "--formats",
+                                     "pdf,tiff"},
+                                    {{"filmImage", {{"name", "film.png"}}},
+                                     {"film", "60x70"},
+                                     {"colours", "COLOURS_CMYK"},
+                                     {"inkLimit", 3},
+                                     {"jobName", "mug 7"},
+                                     {"date", "2025-03-14"},
+                                     {"barMm", 20},
+                                     {"printerMarginMm", 4},
+                                     {"mirror", true},
+                                     {"noMarks", true},
+                                     {"formats", {"pdf", "tiff"}}});
 }
 
 TEST_F(SpecRun, OfTemplateMakesTheSameArtifactsAsFlags) {
-  expect_same("template",
-              {"--mesh", path("sphere.obj"), "--pose", path("pose.json"), "--film", "60x70",
-               "--paper", "A3", "--job-name", "mug 7"},
-              {{"mesh", {{"name", "sphere.obj"}}},
-               {"pose", pose_},
-               {"film", "60x70"},
-               {"paper", "A3"},
-               {"jobName", "mug 7"}});
+  expect_same<v1::TemplateReport>("template",
+                                  {"--mesh", path("sphere.obj"), "--pose", path("pose.json"),
+                                   "--film", "60x70", "--paper", "A3", "--job-name", "mug 7"},
+                                  {{"mesh", {{"name", "sphere.obj"}}},
+                                   {"pose", pose_},
+                                   {"film", "60x70"},
+                                   {"paper", "A3"},
+                                   {"jobName", "mug 7"}});
 }
 
 TEST_F(SpecRun, UsesTheInputsFolderAndTheThreadsFlag) {
@@ -181,8 +188,8 @@ TEST_F(SpecRun, UsesTheInputsFolderAndTheThreadsFlag) {
   const auto files = artifacts(
       {"simulate", "--spec", path("spec.json"), "--inputs", path("in"), "--threads", "1"});
   const Json report = Json::parse(files.at("report.json"));
-  EXPECT_EQ(report["inputs"][0]["path"], path("in/sphere.obj"));
-  EXPECT_EQ(report["parameters"]["threads"], 1);
+  EXPECT_EQ(report["run"]["inputs"][0]["path"], path("in/sphere.obj"));
+  EXPECT_EQ(report["run"]["threads"], 1);
 }
 
 TEST_F(SpecRun, ReadsStdinToo) {
@@ -209,7 +216,7 @@ TEST_F(SpecRun, OfPreviewAnswersRequests) {
       options);
   ::close(requests);
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_NE(ended.out.find("{\"id\":7,\"pose\":"), std::string::npos);
+  EXPECT_NE(ended.out.find("{\"id\":7,\"depth_mm\":"), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ import type {
   DepthPicture,
   Job,
   JobInput,
+  JobReport,
   JobState,
   Lease,
   PlanProgress,
@@ -45,6 +46,7 @@ export const jobs = {
   confirm: (name: string, step: string, leaseId: string) =>
     call<Job>('POST', `${name}:confirm`, { json: { step, leaseId } }),
   planProgress: (plan: string) => call<PlanProgress>('GET', `${plan}/planProgress`),
+  report: (name: string) => call<JobReport>('GET', `${name}/report`),
   artifacts: (name: string) =>
     call<Page<'artifacts', Artifact>>('GET', `${name}/artifacts`, { query: { pageSize: 1000 } }),
 };

@@ -2,10 +2,9 @@
  * What reads models and previews dips for the page: at present the daemon (daemon.ts). Another implementation, such as one
  * in the browser itself, can stand beside it.
  */
-import type { Preview, SimulateSpecInput, InspectSpec } from '../api/types';
+import type { InspectSpec, ModelSummary, Preview, SimulateSpecInput } from '../api/types';
 import type { Box, Mesh } from '../model/mesh';
 import type { Result } from '../model/result';
-import type { Summary } from '../model/summary';
 
 /** Triangles between places, which previews map to the film. */
 export interface Places {
@@ -22,7 +21,7 @@ export interface Model {
   /** The bounding box of the whole model, in units of the file. */
   box: Box;
   places: Places;
-  summary: Summary;
+  summary: ModelSummary;
 }
 
 /** A preview, and its map. */

@@ -1,9 +1,9 @@
 /** Reads the binary glTF that the daemon makes of a model (DisplayModel in the API). */
 import type { BufferAttribute, Mesh as Mesh3, MeshBasicMaterial, Texture, Vector3 } from 'three';
 import type { GLTF, GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
+import type { ModelSummary } from '../api/types';
 import type { Box, Look, Mesh, Wrap } from '../model/mesh';
 import { done, refused, type Result } from '../model/result';
-import type { Summary } from '../model/summary';
 import { readPicture } from '../paint/paint';
 import type { Model, Places } from './engine';
 
@@ -18,10 +18,18 @@ export async function modelOf(glb: ArrayBuffer): Promise<Result<Model>> {
       loadTexture: async (index: number) => textureOf(new three.Texture(), parser, index),
     }));
     const gltf = await loader.parseAsync(glb, '');
-    return done(gathered(gltf, gltf.asset.extras as Summary));
+    return done(gathered(gltf, inCamelCase(gltf.asset.extras) as ModelSummary));
   } catch {
     return refused('the model cannot be shown', 'Reload the page');
   }
+}
+
+/** Gives a JSON file's values the names that they have in the API. */
+function inCamelCase(value: unknown): unknown {
+  if (Array.isArray(value)) return value.map(inCamelCase);
+  if (typeof value !== 'object' || value === null) return value;
+  const name = (key: string) => key.replace(/_./g, (part) => part[1]!.toUpperCase());
+  return Object.fromEntries(Object.entries(value).map(([k, v]) => [name(k), inCamelCase(v)]));
 }
 
 /** Fills a texture with its picture, which may be missing if the browser has too little memory, and its wrap. */
@@ -40,7 +48,7 @@ async function textureOf(texture: Texture, parser: GLTFParser, index: number): P
   return texture;
 }
 
-function gathered({ scene }: GLTF, summary: Summary): Model {
+function gathered({ scene }: GLTF, summary: ModelSummary): Model {
   const parts: Mesh3[] = [];
   scene.traverse((one) => {
     if ('isMesh' in one) parts.push(one as Mesh3);
@@ -74,16 +82,16 @@ function gathered({ scene }: GLTF, summary: Summary): Model {
   return { mesh, box: boxOf(summary), places, summary };
 }
 
-function boxOf({ lowest_mm, highest_mm, scale }: Summary): Box {
+function boxOf({ lowestMm, highestMm, scale }: ModelSummary): Box {
   const corner = ([x = 0, y = 0, z = 0]: number[]) => [x / scale, y / scale, z / scale] as const;
-  return { min: corner(lowest_mm), max: corner(highest_mm) };
+  return { min: corner(lowestMm), max: corner(highestMm) };
 }
 
 /** The look of models without any colour. */
 const kGrey = 0.69;
 
-function lookOf({ color, map }: MeshBasicMaterial, { has_colour }: Summary): Look {
-  if (!has_colour) return { colour: [kGrey, kGrey, kGrey] };
+function lookOf({ color, map }: MeshBasicMaterial, { hasColour }: ModelSummary): Look {
+  if (!hasColour) return { colour: [kGrey, kGrey, kGrey] };
   const look: Look = { colour: [color.r, color.g, color.b] };
   if (!map) return look;
   return { ...look, picture: map.image as ImageBitmap, wrap: map.userData['wrap'] as [Wrap, Wrap] };

@@ -1,6 +1,6 @@
 /** Finds out which of a print's files belong to each other, and which are missing. */
+import type { ModelSummary } from '../api/types';
 import { baseOf, isSameFile, nameFor, type Named } from './files';
-import type { Companion, Summary } from './summary';
 
 /** How the files belong together. */
 export interface Arrangement<F extends Named> {
@@ -21,7 +21,7 @@ export interface Arrangement<F extends Named> {
  * @param materials  files that belong to the model whatever their name
  */
 export function arrange<F extends Named>(
-  summary: Summary | undefined,
+  summary: ModelSummary | undefined,
   materials: readonly F[],
   images: readonly F[],
 ): Arrangement<F> {
@@ -29,25 +29,27 @@ export function arrange<F extends Named>(
   const named = images.filter((image) => isNamed(image, companions));
   const free = images.filter((image) => !named.includes(image));
   const texture = free[0] ?? pictureToProject(summary, named);
-  const missing = companions.filter(({ is_missing }) => is_missing).map(({ name }) => baseOf(name));
+  const missing = companions.filter(({ isMissing }) => isMissing).map(({ name }) => baseOf(name));
   return {
     extra: [...materials, ...named]
       .filter((file) => file !== texture)
       .map((file) => ({ name: nameFor(file), file })),
     unused: free.slice(1),
     missing: texture ? [] : [...new Set(missing)],
-    hasOwnColours: summary?.has_colour ?? false,
+    hasOwnColours: summary?.hasColour ?? false,
     ...(texture ? { texture } : {}),
   };
 }
 
 /** True if a model names the file. */
-export const isNamed = (file: Named, companions: readonly Companion[]): boolean =>
+export const isNamed = (file: Named, companions: ModelSummary['companions']): boolean =>
   companions.some(({ name }) => isSameFile(file.name, name));
 
 /** The only image that a model without texture coordinates names: it cannot use it, but it can be projected. */
-const pictureToProject = <F extends Named>(summary: Summary | undefined, named: readonly F[]) =>
-  summary && !summary.has_texture_coordinates && named.length === 1 ? named[0] : undefined;
+const pictureToProject = <F extends Named>(
+  summary: ModelSummary | undefined,
+  named: readonly F[],
+) => (summary && !summary.hasTextureCoordinates && named.length === 1 ? named[0] : undefined);
 
 /** Says which files to add before the simulation; undefined if none is missing. */
 export function remedyForMissing(missing: readonly string[]): string | undefined {

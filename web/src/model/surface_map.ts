@@ -44,12 +44,12 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
 
 /** Bits of `flags` by the code of the warning that they belong to. */
 const kFlags: Readonly<Record<string, number>> = {
-  film_torn: 1,
-  film_wrinkled: 2,
-  theta_clamped: 4,
-  parts_not_reached: 8,
-  film_edge_reached: 8,
-  air_trapped: 16,
+  FILM_TORN: 1,
+  FILM_WRINKLED: 2,
+  THETA_CLAMPED: 4,
+  PARTS_NOT_REACHED: 8,
+  FILM_EDGE_REACHED: 8,
+  AIR_TRAPPED: 16,
 };
 
 /** Returns the indices of the triangles that a warning is about; empty if it is not about parts of the surface. */

@@ -58,6 +58,7 @@ function take(event: JobEvent): void {
     state: event.state ?? job.state,
     progressFraction: event.progressFraction ?? job.progressFraction,
     phase: event.phase ?? job.phase,
+    waitsFor: event.waitsFor ?? job.waitsFor,
     ...(event.etaTime ? { etaTime: event.etaTime } : {}),
   });
   if (event.kind !== 'PROGRESS') void refresh(job.name);

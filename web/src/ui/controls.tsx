@@ -271,12 +271,11 @@ export function Check(props: { label: string; value: boolean; onValue: (value: b
   );
 }
 
+/** A name and a value; nothing is shown of a row that is not set. */
+export type Row = readonly [string, ComponentChildren] | false | undefined;
+
 /** A list of labelled figures. */
-export const Figures = ({
-  rows,
-}: {
-  rows: readonly (readonly [string, ComponentChildren] | false)[];
-}) => (
+export const Figures = ({ rows }: { rows: readonly Row[] }) => (
   <dl class="figures">
     {rows.map(
       (row) =>

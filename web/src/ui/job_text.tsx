@@ -48,19 +48,9 @@ export const numberOf = (name: string): string => name.split('/')[1] ?? name;
 export const dipText = (immersion: number, immersions: number): string =>
   `Dip ${immersion} of ${immersions}`;
 
-/** An instruction without the number of its dip ("dip 2 of 3: "), for places where a heading shows it. */
-export const withoutDip = (instruction: string): string =>
-  instruction.replace(/^dip \d+ of \d+: /, '');
-
-/** Why a running job still waits, in the words of a cluster; undefined if it does not. */
-export const clusterReason = (job: Pick<Job, 'state' | 'phase'>): string | undefined =>
-  job.state === 'RUNNING' ? job.phase?.match(/^waiting: (.*)$/)?.[1] : undefined;
-
-export const State = ({ state, phase }: { state: JobState; phase?: string }) => (
+export const State = ({ state, waitsFor }: { state: JobState; waitsFor?: string }) => (
   <span class={`state ${state.toLowerCase()}`}>
-    {clusterReason({ state, phase: phase ?? '' }) === undefined
-      ? (kStates[state] ?? state.toLowerCase())
-      : 'waiting'}
+    {waitsFor ? 'waiting' : (kStates[state] ?? state.toLowerCase())}
   </span>
 );
 
@@ -72,11 +62,8 @@ export function holdReason(queue: Queue | undefined): string | undefined {
 
 /** Progress and remaining time of a job. */
 export function JobProgress({ job, queue }: { job: Job; queue?: Queue }) {
-  if (job.state === 'QUEUED') {
-    return <span class="quiet">waiting: {holdReason(queue) ?? 'in the queue'}</span>;
-  }
-  const reason = clusterReason(job);
-  if (reason !== undefined) return <span class="quiet">at the cluster: {reason}</span>;
+  const reason = job.state === 'QUEUED' ? (holdReason(queue) ?? 'in the queue') : job.waitsFor;
+  if (reason) return <span class="quiet">waiting: {reason}</span>;
   const left = secondsUntil(job.etaTime);
   return (
     <span class="how-far">

@@ -34,7 +34,7 @@ done
 case $(cat "$spec") in *stubborn*) trap '' TERM ;; esac
 echo '{"stage":"velocity","fraction":0.5,"total_fraction":0.5}' >&3
 while [ ! -e GO ] && [ -e "$spec" ]; do sleep 0.1; done
-mkdir "$out" && cp "$spec" "$out/film.png"
+mkdir "$out" && echo "{}" > "$out/report.json" && cp "$spec" "$out/film.png"
 )sh";
 
 class WorkerAdoption : public ::testing::Test {
@@ -276,7 +276,7 @@ TEST_F(WorkerAdoption, DaemonKilledWhilePublishingPublishesAgain) {
   start_daemon();
   EXPECT_TRUE(ends(id, JobState::kSucceeded));
   EXPECT_EQ(content(store.layout.artifacts(id) / "film.png"), "{}");
-  EXPECT_EQ(store.jobs.artifacts(id, "", 10)->size(), 1U);
+  EXPECT_EQ(store.jobs.artifacts(id, "", 10)->size(), 2U);  // with report.json
   EXPECT_FALSE(std::filesystem::exists(store.layout.set_aside()));
 }
 

@@ -26,7 +26,7 @@ bool runs(const v1::Job& job) {
 }
 
 bool waits_for_resources(const v1::Job& job) {
-  return job.state() == v1::Job::RUNNING && job.phase() == "waiting: Resources";
+  return job.state() == v1::Job::RUNNING && job.waits_for() == "Resources";
 }
 
 std::ptrdiff_t entries_of(const std::filesystem::path& folder) {

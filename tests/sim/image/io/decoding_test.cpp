@@ -197,7 +197,7 @@ TEST(Decoding, UnusableProfilesGiveAWarning) {
     write_with_oiio(folder / "a.tif", spec, TypeDesc::UINT8, kColours);
     const ReadImage read = decode(folder / "a.tif");
     ASSERT_EQ(read.warnings.size(), 1U);
-    EXPECT_EQ(read.warnings[0].code, "profile_ignored");
+    EXPECT_EQ(read.warnings[0].code, WarningCode::PROFILE_IGNORED);
     EXPECT_EQ(srgb8(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
   }
 }
@@ -230,7 +230,7 @@ TEST(Decoding, ADamagedProfileOfAPngGivesAWarningAndNoGamma) {
   std::ofstream(folder / "b.png", std::ios::binary) << bytes;
   const ReadImage read = decode(folder / "b.png");
   ASSERT_EQ(read.warnings.size(), 1U);
-  EXPECT_EQ(read.warnings[0].code, "profile_ignored");
+  EXPECT_EQ(read.warnings[0].code, WarningCode::PROFILE_IGNORED);
   EXPECT_EQ(srgb8(read.image.texels[0]), (std::array<int, 3>{200, 120, 90}));
 }
 

@@ -136,7 +136,7 @@ TEST(SurfacePaint, ALayerThatCoversNothingIsNamed) {
     load(painted, source);
     std::string out;
     for (const Warning& warning : painted.fitted->warnings())
-      out += warning.code + " " + warning.message;
+      out += std::string(name_of(warning.code)) + " " + warning.message;
     return out;
   };
   Layer decal = colour_layer(1, 0, 0, 1);
@@ -147,7 +147,7 @@ TEST(SurfacePaint, ALayerThatCoversNothingIsNamed) {
   decal.position_mm = Vector3d(0, 0, 0);
   decal.depth_mm = 10;
   const std::string beside = codes(decal);
-  EXPECT_TRUE(beside.starts_with("layer_covers_nothing layer \"eyes\"")) << beside;
+  EXPECT_TRUE(beside.starts_with("LAYER_COVERS_NOTHING layer \"eyes\"")) << beside;
   decal.position_mm = Vector3d(500, 0, -20);
   EXPECT_NE(codes(decal), "");
   EXPECT_NE(codes(colour_layer(1, 0, 0, 0)).find("opacity"), std::string::npos);
@@ -246,7 +246,7 @@ TEST(SurfacePaint, APictureOnAMeshWithoutCoordinatesIsProjectedAlongTheDip) {
   load(painted, source);
   EXPECT_EQ(painted.paint.layers[0].projection, Projection::kDip);
   ASSERT_EQ(painted.paint.warnings.size(), 1U);
-  EXPECT_EQ(painted.paint.warnings[0].code, "picture_projected");
+  EXPECT_EQ(painted.paint.warnings[0].code, WarningCode::PICTURE_PROJECTED);
   for (int t = 0; t < static_cast<int>(painted.surface.triangles.size()); ++t) {
     const Vector3d p = centroid(painted.surface, t);
     const double expected = 128 + 100 * std::sin(2 * std::numbers::pi * (0.5 - p.x() / 40));

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-bool has_warning(const Paint& paint, const std::string& code) {
+bool has_warning(const Paint& paint, WarningCode code) {
   for (const auto& warning : paint.warnings()) {
     if (warning.code == code) return true;
   }
@@ -342,7 +342,7 @@ TEST(Paint, TheShareWithoutColourIsSaid) {
   const auto paint = load_paint(model, {}, {});
   ASSERT_TRUE(paint);
   EXPECT_TRUE(paint->has_colour());
-  ASSERT_TRUE(has_warning(*paint, "colour_missing_in_part"));
+  ASSERT_TRUE(has_warning(*paint, WarningCode::COLOUR_MISSING_IN_PART));
   const std::string& message = paint->warnings().back().message;
   for (const char* part : {"1 triangles", "50", "\"handle\"", "ACME_paint"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -409,8 +409,8 @@ TEST(Paint, WarnsOfItsAssumptions) {
   model.corner_uvs[1][0].x() = std::nanf("");
   const auto paint = load_paint(model, folder / "t.png", {});
   ASSERT_TRUE(paint);
-  EXPECT_TRUE(has_warning(*paint, "alpha_over_white"));
-  EXPECT_TRUE(has_warning(*paint, "uvs_missing_in_part"));
+  EXPECT_TRUE(has_warning(*paint, WarningCode::ALPHA_OVER_WHITE));
+  EXPECT_TRUE(has_warning(*paint, WarningCode::UVS_MISSING_IN_PART));
 }
 
 TEST(Texture, ShortcutsMatchFullSampling) {

@@ -43,11 +43,11 @@ TEST(Dialects, ColoursOfVerticesFrom0To255AreScaled) {
       read(folder.write("a.obj", "v 0 0 0 255 0 51\nv 8 0 0 0 102 0\nv 0 8 0 1 1 1\nf 1 2 3\n"));
   expect_near(m.vertex_colours.at(0), {1, 0, 0.2F});
   expect_near(m.vertex_colours.at(1), {0, 0.4F, 0});
-  EXPECT_TRUE(has_warning(m.warnings, "colours_scaled"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::COLOURS_SCALED));
   const Model bright =
       read(folder.write("b.obj", "v 0 0 0 1.02 0 0\nv 8 0 0 0 1 0\nv 0 8 0 0 0 1\nf 1 2 3\n"));
   expect_near(bright.vertex_colours.at(0), {1, 0, 0});
-  EXPECT_TRUE(has_warning(bright.warnings, "colours_clamped"));
+  EXPECT_TRUE(has_warning(bright.warnings, WarningCode::COLOURS_CLAMPED));
 }
 
 TEST(Dialects, VerticesWithoutAColourAmongOthersAreWhite) {
@@ -55,7 +55,7 @@ TEST(Dialects, VerticesWithoutAColourAmongOthersAreWhite) {
   const Model m = read(folder.write("a.obj", "v 0 0 0\nv 8 0 0 1 0 0\nv 0 8 0\nf 1 2 3\n"));
   expect_near(m.vertex_colours.at(0), {1, 1, 1});
   expect_near(m.vertex_colours.at(1), {1, 0, 0});
-  EXPECT_TRUE(has_warning(m.warnings, "vertex_colours_in_part"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::VERTEX_COLOURS_IN_PART));
 }
 
 TEST(Dialects, PolypaintOfZBrushIsRead) {
@@ -78,7 +78,7 @@ TEST(Dialects, NumbersBesideTheShapeMayBeNaN) {
       "v 0 0 0 nan 0 0\nv 8 0 0 1 0 0\nv 0 8 0 1 -1.#IND 0\nvn nan 0 1\nf 1//1 2//1 3//1\n"));
   expect_near(obj.vertex_colours.at(0), {1, 1, 1});
   expect_near(obj.vertex_colours.at(1), {1, 0, 0});
-  EXPECT_TRUE(has_warning(obj.warnings, "colours_not_numbers"));
+  EXPECT_TRUE(has_warning(obj.warnings, WarningCode::COLOURS_NOT_NUMBERS));
   const auto ply = [&](const std::string& x, const std::string& normal) {
     return folder.write("a.ply",
                         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
@@ -112,11 +112,11 @@ TEST(Dialects, AMaterialFileThatNoFaceNeedsMayBeMissingOrEmpty) {
   for (const std::string name : {"empty.mtl", "gone.mtl"}) {
     const Model bare =
         read(folder.write("a.obj", "mtllib " + name + "\n" + kTriangle + "f 1 2 3\n"));
-    EXPECT_FALSE(has_warning(bare.warnings, "material_file_missing"));
+    EXPECT_FALSE(has_warning(bare.warnings, WarningCode::MATERIAL_FILE_MISSING));
     const Model m =
         read(folder.write("b.obj", "mtllib " + name + "\n" + coloured + "usemtl skin\nf 1 2 3\n"));
-    EXPECT_FALSE(has_warning(m.warnings, "material_file_missing"));
-    EXPECT_FALSE(has_warning(m.warnings, "material_missing"));
+    EXPECT_FALSE(has_warning(m.warnings, WarningCode::MATERIAL_FILE_MISSING));
+    EXPECT_FALSE(has_warning(m.warnings, WarningCode::MATERIAL_MISSING));
     EXPECT_EQ(m.vertex_colours.size(), 3U);
   }
 }
@@ -129,9 +129,9 @@ TEST(Dialects, NamesMayDifferInCaseAndUnicodeForm) {
   const Model m = read(folder.write(
       "a.obj", "mtllib ba\u0308r.mtl\n" + kTriangle + "usemtl FELL BA\u0308R\nf 1 2 3\n"));
   EXPECT_EQ(m.materials.at(0).texture, folder.path() / "fell.png");
-  EXPECT_EQ(
-      std::ranges::count_if(m.warnings, [](const Warning& w) { return w.code == "similar_name"; }),
-      3);
+  EXPECT_EQ(std::ranges::count_if(
+                m.warnings, [](const Warning& w) { return w.code == WarningCode::SIMILAR_NAME; }),
+            3);
 }
 
 TEST(Dialects, ANameWithTwoCandidatesIsNotGuessed) {
@@ -142,7 +142,7 @@ TEST(Dialects, ANameWithTwoCandidatesIsNotGuessed) {
   const Model m =
       read(folder.write("a.obj", "mtllib m.mtl\n" + kTriangle + "usemtl skin\nf 1 2 3\n"));
   EXPECT_EQ(m.materials.at(0).texture, folder.path() / "SKIN.png");
-  EXPECT_FALSE(has_warning(m.warnings, "similar_name"));
+  EXPECT_FALSE(has_warning(m.warnings, WarningCode::SIMILAR_NAME));
 }
 
 TEST(Dialects, NamesInLatin1AreFound) {
@@ -216,7 +216,7 @@ TEST(Dialects, ColoursOfVisCamInStlAreRead) {
   ASSERT_EQ(m.vertex_colours.size(), 12U);
   expect_near(m.vertex_colours[2], {1, 10 / 31.0F, 4 / 31.0F});
   expect_near(m.vertex_colours[3], {1, 1, 1});
-  EXPECT_TRUE(has_warning(m.warnings, "facets_without_colour"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::FACETS_WITHOUT_COLOUR));
   const Model odd = read(folder.write("b.stl", stl_with("", 7, 9)));
   EXPECT_TRUE(odd.vertex_colours.empty());
   EXPECT_EQ(odd.not_understood.size(), 1U);
@@ -307,7 +307,7 @@ TEST(Dialects, FacesWithoutCoordinatesInAPlyHaveNoTexture) {
                                    {"6 0 0 1 0 0 1", "0"}, "comment TextureFile one.png\n")));
   EXPECT_FALSE(m.materials.at(m.triangle_material.at(0)).texture.empty());
   EXPECT_TRUE(m.materials.at(m.triangle_material.at(1)).texture.empty());
-  EXPECT_TRUE(has_warning(m.warnings, "faces_without_uv"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::FACES_WITHOUT_UV));
 }
 
 TEST(Dialects, CoordinatesOfPlyMayBeIntegersAndLinesMayEndWithCr) {
@@ -336,13 +336,13 @@ TEST(Dialects, ModelsInMapCoordinatesAreTheSameShapes) {
   };
   const Model near = read(folder.write("near.obj", cube(0, 0, 0)), 1000);
   const Model far = read(folder.write("far.obj", cube(512345.5, 5403210.25, 321.125)), 1000);
-  EXPECT_FALSE(has_warning(near.warnings, "far_from_origin"));
-  EXPECT_TRUE(has_warning(far.warnings, "far_from_origin"));
+  EXPECT_FALSE(has_warning(near.warnings, WarningCode::FAR_FROM_ORIGIN));
+  EXPECT_TRUE(has_warning(far.warnings, WarningCode::FAR_FROM_ORIGIN));
   const auto a = make_surface(near, 2, {}), b = make_surface(far, 2, {});
   ASSERT_TRUE(a);
   ASSERT_TRUE(b);
   EXPECT_TRUE(b->closed);
-  EXPECT_FALSE(has_warning(b->warnings, "inside_out"));
+  EXPECT_FALSE(has_warning(b->warnings, WarningCode::INSIDE_OUT));
   ASSERT_EQ(a->triangles, b->triangles);
   const Eigen::Vector3d shift(512345500, 5403210250, 321125);
   for (std::size_t i = 0; i < a->points.size(); ++i)

@@ -138,7 +138,7 @@ TEST(GltfColour, TransparentVerticesAreBlendedWithWhite) {
   expect_near(m.vertex_colours.at(0), {srgb(0.875), srgb(0.875), srgb(0.75)});
   expect_near(m.vertex_colours.at(2), {1, 1, 1});
   expect_near(material_of(m).colour, {1, 1, 1});
-  EXPECT_TRUE(has_warning(m.warnings, "alpha_over_white"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::ALPHA_OVER_WHITE));
   GltfFile opaque;
   opaque.attribute("COLOR_0", "VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
   expect_near(read_file_of(opaque).vertex_colours.at(0), {1, 0, 0});
@@ -181,7 +181,7 @@ TEST(GltfColour, AnEmissionAloneIsTheColour) {
   const Model m = read_file_of(file);
   EXPECT_FALSE(material_of(m).texture_bytes.empty());
   expect_near(material_of(m).colour, {1, srgb(0.25), 1});
-  EXPECT_TRUE(has_warning(m.warnings, "emissive_colour_used"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::EMISSIVE_COLOUR_USED));
   GltfFile painted;
   painted.material(
       R"({"pbrMetallicRoughness":{"baseColorFactor":[0,1,0,1]},"emissiveFactor":[1,0,0]})");
@@ -305,9 +305,9 @@ TEST(GltfNames, BuffersAndImagesMayDifferInCase) {
                                     "images":[{"uri":"skin.png"}])"}})));
   EXPECT_EQ(m.triangles.size(), 4U);
   EXPECT_EQ(material_of(m).texture, folder.path() / "Skin.PNG");
-  EXPECT_EQ(
-      std::ranges::count_if(m.warnings, [](const Warning& w) { return w.code == "similar_name"; }),
-      2);
+  EXPECT_EQ(std::ranges::count_if(
+                m.warnings, [](const Warning& w) { return w.code == WarningCode::SIMILAR_NAME; }),
+            2);
   expect_refused(folder.write("b.gltf", tetrahedron_gltf({{"uri", "../shape.bin"}})), "");
 }
 

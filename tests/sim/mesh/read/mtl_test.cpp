@@ -47,14 +47,14 @@ TEST(ParseMtl, OneNumberOfKdIsGrey) {
 TEST(ParseMtl, DecimalCommasAreRead) {
   const MtlFile file = parse("newmtl a\nKd 0,25 0,5 1,0\n");
   EXPECT_EQ(file.materials.at(0).colour, Eigen::Vector3f(0.25, 0.5, 1));
-  EXPECT_TRUE(has_warning(file.warnings, "decimal_commas"));
+  EXPECT_TRUE(has_warning(file.warnings, WarningCode::DECIMAL_COMMAS));
 }
 
 TEST(ParseMtl, ColoursFrom0To255AreScaledTogether) {
   const MtlFile file = parse("newmtl a\nKd 255 51 0\nnewmtl b\nKd 1 0 0\n");
   EXPECT_EQ(file.materials.at(0).colour, Eigen::Vector3f(1, 0.2F, 0));
   EXPECT_EQ(file.materials.at(1).colour, Eigen::Vector3f(1 / 255.0F, 0, 0));
-  EXPECT_TRUE(has_warning(file.warnings, "colours_scaled"));
+  EXPECT_TRUE(has_warning(file.warnings, WarningCode::COLOURS_SCALED));
 }
 
 TEST(ParseMtl, OptionsHaveOneToThreeNumbersAndStandOnEitherSide) {
@@ -88,10 +88,10 @@ TEST(ParseMtl, NamesMayLookLikeOptionsOrNumbers) {
 }
 
 TEST(ParseMtl, OptionsThatChangeThePictureAreNamedIfTheyAreNotSupported) {
-  EXPECT_TRUE(
-      has_warning(parse("newmtl a\nmap_Kd -mm 0.1 2 t.png\n").warnings, "texture_options_ignored"));
+  EXPECT_TRUE(has_warning(parse("newmtl a\nmap_Kd -mm 0.1 2 t.png\n").warnings,
+                          WarningCode::TEXTURE_OPTIONS_IGNORED));
   EXPECT_TRUE(has_warning(parse("newmtl a\nmap_Kd -imfchan r t.png\n").warnings,
-                          "texture_options_ignored"));
+                          WarningCode::TEXTURE_OPTIONS_IGNORED));
   EXPECT_TRUE(parse("newmtl a\nmap_Kd -t 0 0 0 -mm 0 1 t.png\n").warnings.empty());
 }
 
@@ -100,7 +100,7 @@ TEST(ParseMtl, TheAmbientTextureStandsInForAMissingOne) {
   EXPECT_EQ(file.materials.at(0).texture, "grey.png");
   EXPECT_EQ(file.materials.at(1).texture, "y.png");
   ASSERT_EQ(file.warnings.size(), 1U);
-  EXPECT_EQ(file.warnings[0].code, "ambient_texture_used");
+  EXPECT_EQ(file.warnings[0].code, WarningCode::AMBIENT_TEXTURE_USED);
 }
 
 TEST(ParseMtl, WhatIsNotUnderstoodIsSaid) {

@@ -72,7 +72,7 @@ TEST(ReadModel, FacesWithoutAreaAreDroppedWithTheirAttributes) {
   EXPECT_EQ(m.triangles[0], Eigen::Vector3i(0, 1, 3));
   EXPECT_EQ(m.corner_uvs.at(0)[1], Eigen::Vector2f(1, 0));
   EXPECT_EQ(m.materials[m.triangle_material.at(0)].name, "b");
-  ASSERT_TRUE(has_warning(m.warnings, "zero_area_faces"));
+  ASSERT_TRUE(has_warning(m.warnings, WarningCode::ZERO_AREA_FACES));
   EXPECT_EQ(m.warnings.back().message.substr(0, 7), "2 faces");
 }
 
@@ -206,24 +206,24 @@ TEST(ReadGltf, MirroringNodesKeepFacesFacingOutward) {
       folder.write("a.gltf", tetrahedron_gltf({{"nodes", R"([{"mesh":0,"scale":[-1,1,1]}])"}})));
   const auto surface = make_surface(m, kMaxEdgeMm, {});
   EXPECT_TRUE(surface->closed);
-  EXPECT_FALSE(has_warning(surface->warnings, "inside_out"));
+  EXPECT_FALSE(has_warning(surface->warnings, WarningCode::INSIDE_OUT));
 }
 
 TEST(ReadGltf, IgnoredSkeletonsAndMorphTargetsGiveWarnings) {
   const Folder folder;
   const Model plain = read(folder.write("a.gltf", tetrahedron_gltf()));
-  EXPECT_FALSE(has_warning(plain.warnings, "skin_ignored"));
-  EXPECT_FALSE(has_warning(plain.warnings, "morph_ignored"));
+  EXPECT_FALSE(has_warning(plain.warnings, WarningCode::SKIN_IGNORED));
+  EXPECT_FALSE(has_warning(plain.warnings, WarningCode::MORPH_IGNORED));
   const Model skinned = read(folder.write(
       "b.gltf", tetrahedron_gltf({{"nodes", R"([{"mesh":0,"skin":0,"children":[1]},{}])"},
                                   {"extra", R"(,"skins":[{"joints":[1]}])"}})));
-  EXPECT_TRUE(has_warning(skinned.warnings, "skin_ignored"));
-  EXPECT_FALSE(has_warning(skinned.warnings, "morph_ignored"));
+  EXPECT_TRUE(has_warning(skinned.warnings, WarningCode::SKIN_IGNORED));
+  EXPECT_FALSE(has_warning(skinned.warnings, WarningCode::MORPH_IGNORED));
   EXPECT_EQ(skinned.vertices, plain.vertices);
   const Model morphing = read(
       folder.write("c.gltf", tetrahedron_gltf({{"material", R"(,"targets":[{"POSITION":0}])"}})));
-  EXPECT_TRUE(has_warning(morphing.warnings, "morph_ignored"));
-  EXPECT_FALSE(has_warning(morphing.warnings, "skin_ignored"));
+  EXPECT_TRUE(has_warning(morphing.warnings, WarningCode::MORPH_IGNORED));
+  EXPECT_FALSE(has_warning(morphing.warnings, WarningCode::SKIN_IGNORED));
   EXPECT_EQ(morphing.vertices, plain.vertices);
 }
 

@@ -112,7 +112,7 @@ TEST(ReadObj, TexturesAreFoundByWindowsPathsToo) {
 TEST(ReadObj, AMissingMaterialFileIsAWarning) {
   const Folder folder;
   const Model m = read(folder.write("a.obj", "mtllib gone.mtl\nusemtl m\n" + kTetrahedronObj));
-  EXPECT_TRUE(has_warning(m.warnings, "material_file_missing"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::MATERIAL_FILE_MISSING));
   EXPECT_FALSE(m.materials.at(0).has_colour);
 }
 
@@ -120,7 +120,7 @@ TEST(ReadObj, AMissingOrEmptyMaterialIsAWarning) {
   const Folder folder;
   folder.write("empty.mtl", "# nothing\n");
   const Model m = read(folder.write("a.obj", "mtllib empty.mtl\nusemtl m\n" + kTetrahedronObj));
-  EXPECT_TRUE(has_warning(m.warnings, "material_missing"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::MATERIAL_MISSING));
 }
 
 TEST(ReadObj, VertexColoursAreKept) {
@@ -136,7 +136,7 @@ TEST(ReadObj, FacesWithoutTextureCoordinatesAmongOthersAreReported) {
   const Model m = read(folder.write(
       "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 1 1\nf 1/1 2/1 3/1\nf 1//1 2//1 4//1\n"));
   EXPECT_EQ(m.corner_uvs.size(), 2U);
-  EXPECT_TRUE(has_warning(m.warnings, "faces_without_uv"));
+  EXPECT_TRUE(has_warning(m.warnings, WarningCode::FACES_WITHOUT_UV));
 }
 
 TEST(ReadObj, ContinuedLinesAndDosLineEndsAreRead) {

@@ -31,9 +31,9 @@ TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
   const auto surface = make_surface(m, kMaxEdgeMm, {});
   ASSERT_TRUE(surface);
   EXPECT_EQ(surface->closed, expected.closed);
-  EXPECT_EQ(has_warning(surface->warnings, "mesh_open"), !expected.closed);
-  EXPECT_FALSE(has_warning(surface->warnings, "inside_out"));
-  EXPECT_FALSE(has_warning(surface->warnings, "mesh_non_manifold"));
+  EXPECT_EQ(has_warning(surface->warnings, WarningCode::MESH_OPEN), !expected.closed);
+  EXPECT_FALSE(has_warning(surface->warnings, WarningCode::INSIDE_OUT));
+  EXPECT_FALSE(has_warning(surface->warnings, WarningCode::MESH_NON_MANIFOLD));
 }
 
 INSTANTIATE_TEST_SUITE_P(

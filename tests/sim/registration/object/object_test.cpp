@@ -205,7 +205,7 @@ TEST(Object, HalfOutOfViewIsReported) {
   const auto pose = hanging.find();
   if (!pose) return;  // refusing the scan is valid, too
   ASSERT_FALSE(pose->warnings.empty());
-  EXPECT_EQ(pose->warnings[0].code, "object_partly_out_of_view");
+  EXPECT_EQ(pose->warnings[0].code, WarningCode::OBJECT_PARTLY_OUT_OF_VIEW);
 }
 
 TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {

@@ -5,9 +5,9 @@ import { formatMm } from '../../model/units';
 import { Figures } from '../../ui/controls';
 import { staleness } from '../new_print/calibration';
 import { numberOf } from '../../ui/job_text';
+import { WarningLines } from '../../ui/warning';
 import { Files, Pictures } from './files';
 import type { Results } from './results';
-import { WarningLines } from './warning_lines';
 
 /** Results of a calibration job: the measured pose and its error, or the camera calibration. */
 export function CalibrateView({ job, results }: { job: Job; results: Results }) {
@@ -19,7 +19,7 @@ export function CalibrateView({ job, results }: { job: Job; results: Results }) 
   }, [job.name]);
   return (
     <>
-      <WarningLines results={results} />
+      <WarningLines warnings={results.warnings} />
       <div class="columns">
         <div>
           <Pictures results={results} />

@@ -4,9 +4,9 @@ import { artifactPath } from '../../api/services';
 import type { Job } from '../../api/types';
 import { readPositions, type Sample } from '../../model/positions';
 import { isFinished } from '../../state/jobs';
-import { warningsOf } from '../../model/report';
 import { formatSeconds } from '../../model/units';
 import { Figures } from '../../ui/controls';
+import { WarningLines } from '../../ui/warning';
 import { Files } from './files';
 import type { Results } from './results';
 
@@ -21,14 +21,8 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
     });
   }, [hasRecord]);
   const status = job.dipStatus;
-  const warnings = [
-    ...new Set([
-      ...(status?.warnings ?? []),
-      ...warningsOf(results.report.value).map((w) => w.message),
-    ]),
-  ];
   const last = samples.at(-1);
-  const planned = results.report.value?.parameters;
+  const planned = results.report.value?.dip?.parameters;
   return (
     <>
       {!isFinished(job) && (
@@ -39,11 +33,7 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
         </p>
       )}
       {status?.instruction && <p class="instruction">{status.instruction}</p>}
-      {warnings.map((warning) => (
-        <p class="warning" key={warning}>
-          {warning}
-        </p>
-      ))}
+      <WarningLines warnings={status?.warnings ?? []} />
       <Figures
         rows={[
           [
@@ -54,8 +44,8 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
               '–'
             ),
           ],
-          ['Depth', `${planned?.depth_mm ?? job.dip?.depthMm ?? '–'} mm`],
-          ['Speed', `${planned?.speed_mm_per_s ?? job.dip?.speedMmPerS ?? '–'} mm/s`],
+          ['Depth', `${planned?.depthMm ?? job.dip?.depthMm ?? '–'} mm`],
+          ['Speed', `${planned?.speedMmPerS ?? job.dip?.speedMmPerS ?? '–'} mm/s`],
           status?.contactMm !== undefined && [
             'Axis position at first contact',
             `${status.contactMm.toFixed(2)} mm`,

@@ -10,6 +10,7 @@ import { may, mayChange } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
 import { Button, ConfirmButton, Check } from '../../ui/controls';
 import { JobProgress, kindOf, kindText, numberOf, State, When } from '../../ui/job_text';
+import { WarningLines } from '../../ui/warning';
 import { CalibrateView } from './calibrate_view';
 import { CaptureView } from './capture_view';
 import { DipView } from './dip_view';
@@ -18,7 +19,6 @@ import { pagesOf } from './pages';
 import { PlanBody, PlanOf } from './plan_body';
 import { Results } from './results';
 import { SimulateView } from './simulate_view';
-import { WarningLines } from './warning_lines';
 
 export function JobScreen({ name }: { name: string }) {
   useEffect(() => void refresh(name), [name, beginnings.value]);
@@ -45,7 +45,7 @@ function Head({ job }: { job: Job }) {
   return (
     <header>
       <h1>
-        {job.displayName || job.name} <State state={job.state} phase={job.phase} />
+        {job.displayName || job.name} <State state={job.state} waitsFor={job.waitsFor} />
       </h1>
       <p class="quiet">
         Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, created{' '}
@@ -232,7 +232,7 @@ function Body({ job, results }: { job: Job; results: Results }) {
     default:
       return (
         <>
-          <WarningLines results={results} />
+          <WarningLines warnings={results.warnings} />
           <Files results={results} />
           <Pictures results={results} />
         </>

@@ -1,7 +1,7 @@
 /** The dipped object in 3D. */
 import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Warning } from '../../api/types';
 import type { Scale } from '../../model/colour_map';
-import { placeOf, type Warning } from '../../model/report';
 import { rotate, type Quaternion } from '../../model/pose';
 import { placesOf } from '../../model/surface_map';
 import { Switch } from '../../ui/controls';
@@ -20,10 +20,10 @@ interface Props {
 
 /** Pose of the object at first contact, when its lowest point is on the water. */
 export function startOf(results: Results): Start | undefined {
-  const pose = results.report.value?.parameters?.pose;
+  const pose = results.dip?.pose;
   const map = results.map.value;
   if (!pose || !map) return undefined;
-  const [w = 1, x = 0, y = 0, z = 0] = pose.rotation_wxyz;
+  const [w = 1, x = 0, y = 0, z = 0] = pose.rotationWxyz;
   const rotation: Quaternion = [w, x, y, z];
   const ups = (
     [
@@ -39,13 +39,12 @@ export function startOf(results: Results): Start | undefined {
       lowest,
       ups[0]! * positions[i]! + ups[1]! * positions[i + 1]! + ups[2]! * positions[i + 2]!,
     );
-  const [tx = 0, ty = 0] = pose.translation_mm;
+  const [tx = 0, ty = 0] = pose.translationMm;
   return { rotation, translation_mm: [tx, ty, -lowest] };
 }
 
 /** The stretch at which the film tears; the upper end of the scale. */
-const tearOf = (results: Results): number =>
-  results.report.value?.parameters?.profile?.tear_stretch ?? 3;
+const tearOf = (results: Results): number => results.dip?.profile?.tearStretch ?? 3;
 
 /** Scale of the stated error on the film, mm; about a pixel at 300 dpi is in its middle. */
 const kError: Scale = { map: 'viridis', min: 0.01, max: 1, log: true };
@@ -72,7 +71,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
     let isGone = false;
     void import('../../view3d/result_view').then(({ ResultView: View }) => {
       if (isGone || !host.current) return;
-      const speed = results.report.value?.parameters?.dip_speed_mm_per_s ?? 5;
+      const speed = results.dip?.dipSpeedMmPerS ?? 5;
       try {
         made = new View(host.current, map, start, shape, speed);
       } catch {
@@ -111,7 +110,9 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
 
   useEffect(() => {
     if (!view || !map) return;
-    view.point(pointed ? placesOf(pointed.code, map) : [], pointed && placeOf(pointed.where));
+    const point = pointed?.where?.filmPoint;
+    const place = point && ([point.xMm, point.yMm, point.immersionMm] as const);
+    view.point(pointed ? placesOf(pointed.code, map) : [], place);
   }, [view, pointed]);
 
   return (

@@ -2,9 +2,9 @@ import type { Job } from '../../api/types';
 import { jobPath } from '../../route';
 import { numberOf } from '../../ui/job_text';
 import { later } from '../../ui/later';
+import { WarningLines } from '../../ui/warning';
 import { Files } from './files';
 import type { Results } from './results';
-import { WarningLines } from './warning_lines';
 
 const PlanView = later(() => import('../plan').then((plan) => plan.PlanView));
 
@@ -14,7 +14,7 @@ export function PlanBody({ job, results }: { job: Job; results: Results }) {
   return (
     <>
       <PlanView job={job} />
-      <WarningLines results={results} />
+      <WarningLines warnings={results.warnings} />
       <details>
         <summary>Files of the plan</summary>
         <Files results={results} />

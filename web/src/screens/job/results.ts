@@ -2,9 +2,8 @@
 import { signal } from '@preact/signals';
 import { fetchBytes } from '../../api/call';
 import { artifactPath, jobs as api } from '../../api/services';
-import type { Artifact } from '../../api/types';
+import type { Artifact, JobReport, Warning } from '../../api/types';
 import { filmOf, type Film } from '../../model/film';
-import type { Report } from '../../model/report';
 import { done, refused, type Failure, type Result } from '../../model/result';
 import type { SurfaceMap } from '../../model/surface_map';
 import { readMap } from '../../worker/reader';
@@ -19,7 +18,7 @@ export interface FilmImage {
 
 export class Results {
   readonly artifacts = signal<Artifact[] | undefined>(undefined);
-  readonly report = signal<Report | undefined>(undefined);
+  readonly report = signal<JobReport | undefined>(undefined);
   readonly map = signal<SurfaceMap | undefined>(undefined);
   readonly film = signal<FilmImage | undefined>(undefined);
   readonly failure = signal<Failure | undefined>(undefined);
@@ -31,16 +30,24 @@ export class Results {
     return this.artifacts.value?.some((artifact) => fileOf(artifact) === file) ?? false;
   }
 
+  get warnings(): Warning[] {
+    return Object.values(this.report.value ?? {})[0]?.run?.warnings ?? [];
+  }
+
+  /** The dip of a simulation. */
+  get dip() {
+    return this.report.value?.simulate?.parameters?.dip;
+  }
+
   loadReport(): void {
     this.once('report', async () => {
       const list = await api.artifacts(this.job);
       if (!list.ok) return list;
       this.artifacts.value = list.value.artifacts;
       if (!this.has('report.json')) return done(undefined);
-      const bytes = await fetchBytes(artifactPath(this.job, 'report.json'));
-      if (!bytes.ok) return bytes;
-      this.report.value = JSON.parse(new TextDecoder().decode(bytes.value)) as Report;
-      return done(undefined);
+      const report = await api.report(this.job);
+      if (report.ok) this.report.value = report.value;
+      return report;
     });
   }
 
@@ -63,7 +70,7 @@ export class Results {
       );
       if (!picture)
         return refused('this browser cannot show the film image', 'Download film.png under Files');
-      const dpi = this.report.value?.parameters?.dpi ?? 300;
+      const dpi = this.report.value?.simulate?.parameters?.dpi ?? 300;
       this.film.value = { picture, pitch_mm: 25.4 / dpi };
       return done(undefined);
     });
@@ -71,10 +78,10 @@ export class Results {
 
   /** The film named in the report; for a polygon, its bounding box. */
   filmShape(): Film | undefined {
-    const film = this.report.value?.parameters?.film;
+    const film = this.dip?.film;
     if (!film) return undefined;
-    const [x0 = 0, y0 = 0] = film.min_mm;
-    const [x1 = 0, y1 = 0] = film.max_mm;
+    const [x0 = 0, y0 = 0] = film.minMm;
+    const [x1 = 0, y1 = 0] = film.maxMm;
     return filmOf(film.name) ?? { name: film.name, width_mm: x1 - x0, height_mm: y1 - y0 };
   }
 

@@ -1,8 +1,9 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { warningsOf, type Warning } from '../../model/report';
+import type { FlowFacts, Warning } from '../../api/types';
 import { formatFactor, formatMm, formatSeconds, formatShare } from '../../model/units';
-import { Figures, Switch } from '../../ui/controls';
+import { Figures, Switch, type Row } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
+import { WarningText } from '../../ui/warning';
 import type { ResultView } from '../../view3d/result_view';
 import { Files } from './files';
 import { FilmViewer } from './film_viewer';
@@ -15,7 +16,7 @@ type Tab = 'film' | 'object' | 'files';
 export function SimulateView({ results }: { results: Results }) {
   const [tab, setTab] = useState<Tab>('film');
   const [pointed, setPointed] = useState<Warning>();
-  const report = results.report.value;
+  const report = results.report.value?.simulate;
   const isWhole = results.has('film.png');
   return (
     <div class="columns result">
@@ -48,43 +49,14 @@ export function SimulateView({ results }: { results: Results }) {
             <h2>Figures</h2>
             <Figures
               rows={[
-                report.coverage !== undefined && ['Coverage', formatShare(report.coverage)],
-                report.depth_mm !== undefined && ['Depth', formatMm(report.depth_mm)],
-                report.stretch !== undefined && [
-                  'Stretch (median)',
-                  formatFactor(report.stretch.p50),
-                ],
-                report.stretch !== undefined && [
-                  'Stretch (95th percentile)',
-                  formatFactor(report.stretch.p95),
-                ],
-                report.stretch !== undefined && [
-                  'Stretch (maximum)',
-                  formatFactor(report.stretch.max),
-                ],
-                !!report.error && [
-                  'Error on the film (median)',
-                  report.error.p50_mm === null ? 'not known' : formatMm(report.error.p50_mm, 2),
-                ],
-                !!report.error && [
-                  'Error on the film (95th percentile)',
-                  report.error.p95_mm === null ? 'not known' : formatMm(report.error.p95_mm, 2),
-                ],
-                !!report.error && [
-                  'Points that may be off by more than a pixel',
-                  formatShare(report.error.above_pixel_share),
-                ],
-                !!report.error?.no_bound_share && [
-                  'Points behind torn film, without a bound',
-                  formatShare(report.error.no_bound_share),
-                ],
-                ['Dip speed', `${report.parameters?.dip_speed_mm_per_s ?? '–'} mm/s`],
-                ['Film', report.parameters?.film?.name ?? '–'],
+                ...(report.flow ? rowsOf(report.flow) : []),
+                ['Dip speed', `${results.dip?.dipSpeedMmPerS ?? '–'} mm/s`],
+                ['Film', results.dip?.film?.name ?? '–'],
                 [
                   'Film image',
-                  `${report.parameters?.film_image_px?.join(' × ') ?? '–'} px, ${report.parameters?.dpi ?? '–'} dpi`,
+                  `${report.parameters?.filmImagePx.join(' × ') || '–'} px, ${report.parameters?.dpi ?? '–'} dpi`,
                 ],
-                ['Computing time', formatSeconds(report.total_seconds ?? NaN)],
+                ['Computing time', formatSeconds(report.run?.totalSeconds ?? NaN)],
               ]}
             />
           </section>
@@ -93,6 +65,25 @@ export function SimulateView({ results }: { results: Results }) {
     </div>
   );
 }
+
+const orUnknown = (length_mm: number | undefined) =>
+  length_mm === undefined ? 'not known' : formatMm(length_mm, 2);
+
+/** The figures of a dip. */
+const rowsOf = ({ coverage, depthMm, stretch, error }: FlowFacts): Row[] => [
+  ['Coverage', formatShare(coverage)],
+  ['Depth', formatMm(depthMm)],
+  stretch?.p50 !== undefined && ['Stretch (median)', formatFactor(stretch.p50)],
+  stretch?.p95 !== undefined && ['Stretch (95th percentile)', formatFactor(stretch.p95)],
+  stretch?.max !== undefined && ['Stretch (maximum)', formatFactor(stretch.max)],
+  error && ['Error on the film (median)', orUnknown(error.p50Mm)],
+  error && ['Error on the film (95th percentile)', orUnknown(error.p95Mm)],
+  error && ['Points that may be off by more than a pixel', formatShare(error.abovePixelShare)],
+  !!error?.noBoundShare && [
+    'Points behind torn film, without a bound',
+    formatShare(error.noBoundShare),
+  ],
+];
 
 function FilmTab({ results }: { results: Results }) {
   const [straight, setStraight] = useState<ImageBitmap>();
@@ -135,15 +126,15 @@ function Warnings(props: {
   point: (warning: Warning | undefined) => void;
 }) {
   const { pointed, point } = props;
-  const warnings = warningsOf(props.results.report.value);
-  if (!props.results.report.value) return null;
+  const { warnings, report } = props.results;
+  if (!report.value) return null;
   return (
     <section aria-labelledby="warnings-title">
       <h2 id="warnings-title">Warnings</h2>
       {warnings.length === 0 && <p>None. The print should look as predicted.</p>}
       <ul class="warnings">
-        {warnings.map((warning) => (
-          <li key={warning.code + warning.where + warning.message}>
+        {warnings.map((warning, i) => (
+          <li key={i}>
             <button
               type="button"
               class="plain"
@@ -152,9 +143,7 @@ function Warnings(props: {
               onClick={() => point(warning === pointed ? undefined : warning)}
             >
               <Icon name="warning" />
-              <span>
-                {warning.message}.{warning.where && <span class="quiet"> {warning.where}</span>}
-              </span>
+              <WarningText warning={warning} />
             </button>
           </li>
         ))}

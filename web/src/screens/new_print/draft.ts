@@ -110,7 +110,7 @@ export const sides_mm = computed<Vec3>(() => {
 
 /** True if the model has no texture coordinates. */
 export const lacksCoordinates = computed(
-  () => shape.value !== undefined && !shape.value.summary.has_texture_coordinates,
+  () => shape.value !== undefined && !shape.value.summary.hasTextureCoordinates,
 );
 
 /** The picture's layer. Changes of other parts of the draft keep it. */

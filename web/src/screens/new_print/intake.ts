@@ -1,8 +1,9 @@
 /** Handles dropped files: classifies them, has the model read, and reports refused files with the reason. */
 import { batch, computed, signal } from '@preact/signals';
+import type { Warning } from '../../api/types';
 import { arrange, isNamed, type Arrangement } from '../../model/arrangement';
 import { contradiction, nameFor, roleOf, type Role } from '../../model/files';
-import { done, refused, wordsOf, type Failure, type Result } from '../../model/result';
+import { done, refused, wordsOf, type Result } from '../../model/result';
 import { may } from '../../state/session';
 import { change, clear, draft, shape, unitOfFormat, type Shape } from './draft';
 import type { LayerChoices } from './picture/choices';
@@ -26,22 +27,18 @@ export const colourless = computed<Problem[]>(() => {
   const { missing, texture } = arrangement.value;
   const failure = shape.value?.colourless;
   if (missing.length === 0 && failure && !texture)
-    return whyColourless(meshOf(draft.value.files), failure);
+    return [{ name: meshOf(draft.value.files)?.name ?? 'The model', why: wordsOf(failure) }];
   const why = 'the model names this file. Add it, or choose another texture';
   return missing.map((name) => ({ name, why }));
 });
 
-const whyColourless = (mesh: File | undefined, failure: Failure): Problem[] => [
-  mesh
-    ? { name: mesh.name, why: wordsFor(mesh, failure) }
-    : { name: 'The model', why: wordsOf(failure) },
-];
+/** Missing colours are a problem, unless a texture replaces them. */
+const kOfColours: readonly Warning['code'][] = ['MATERIAL_FILE_MISSING', 'MATERIAL_MISSING'];
 
-/** The words of a failure after the name of the file, which the worker's words begin with. */
-function wordsFor({ name }: File, failure: Failure): string {
-  const words = wordsOf(failure).replace(/^hydroprint-worker: /, '');
-  return words.startsWith(`${name}: `) ? words.slice(name.length + 2) : words;
-}
+/** What the worker noticed while it read the model. */
+export const notes = computed(() =>
+  (shape.value?.summary.warnings ?? []).filter(({ code }) => !kOfColours.includes(code)),
+);
 
 /** Returns the model among the files. */
 export const meshOf = (files: readonly File[]): File | undefined => withRole(files, 'mesh')[0];
@@ -156,7 +153,7 @@ async function readAll(files: File[], isNew: boolean, bad: Problem[]): Promise<v
     const kept = files.filter((file) => !strays.includes(file));
     return use(kept, read.value, [...bad, ...whyStray(strays)], mesh);
   }
-  problems.value = [...bad, { name: mesh.name, why: wordsFor(mesh, read.failure) }];
+  problems.value = [...bad, { name: mesh.name, why: wordsOf(read.failure) }];
   // The files that came with the model wait for a better one.
   const hasModel = shape.value !== undefined || meshOf(draft.value.files) !== undefined;
   if (isNew && !hasModel) use(without(files, mesh), undefined, problems.value);
@@ -165,8 +162,7 @@ async function readAll(files: File[], isNew: boolean, bad: Problem[]): Promise<v
 /** Pictures that came with a model but are not of its colours, such as the normal map of a glTF. */
 function straysIn(files: readonly File[], { summary }: Shape): File[] {
   const images = withRole(files, 'image');
-  const companions = summary.companions ?? [];
-  const strays = images.filter((image) => !isNamed(image, companions));
+  const strays = images.filter((image) => !isNamed(image, summary.companions));
   return strays.length < images.length ? strays : [];
 }
 
@@ -205,10 +201,8 @@ function closePictures({ mesh }: Shape): void {
 const bearing = (files: readonly File[], { summary }: Shape): File[] =>
   files.filter((file) => {
     const role = roleOf(file.name);
-    const { companions = [] } = summary;
-    return (
-      role === 'mesh' || role === 'material' || (role === 'image' && isNamed(file, companions))
-    );
+    const isPart = role === 'image' && isNamed(file, summary.companions);
+    return role === 'mesh' || role === 'material' || isPart;
   });
 
 const isSame = (a: readonly File[], b: readonly File[]): boolean =>

@@ -4,11 +4,22 @@ import { limitsOf } from '../../model/limits';
 import { formatSize, kLengthUnits, likelyUnit, oddSize, unitOf } from '../../model/units';
 import { Button, NumberField, Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
+import { WarningList } from '../../ui/warning';
 import { orNotify } from '../../state/notices';
 import { calibrated } from './calibration';
 import { draft, longest_mm, rescale, shape, sides_mm, unitOfFormat } from './draft';
 import { FileList, Waiting } from './file_list';
-import { colourless, meshOf, problems, reread, samples, take, takeSample, waiting } from './intake';
+import {
+  colourless,
+  meshOf,
+  notes,
+  problems,
+  reread,
+  samples,
+  take,
+  takeSample,
+  waiting,
+} from './intake';
 import { takeDropped } from './picture/dropped';
 import { PicturePanel } from './picture/picture_panel';
 import { stage } from './reading';
@@ -107,7 +118,7 @@ export function Taken() {
       {waiting.value.length === 0 && <FileList />}
       {shape.value && <ReadingStatus />}
       <Problems />
-      <Notes />
+      <WarningList warnings={notes.value} />
       {!shape.value && !stage.value && meshOf(files) && (
         <button type="button" onClick={() => void reread()}>
           Read the model again
@@ -129,30 +140,17 @@ function Problems() {
       <ul class="problems">
         {all.map(({ name, why }) => (
           <li key={name}>
-            <Icon name="warning" /> <b>{name}</b>: {why}.
+            <Icon name="warning" />{' '}
+            {!why.includes(name) && (
+              <>
+                <b>{name}</b>:{' '}
+              </>
+            )}
+            {why}.
           </li>
         ))}
       </ul>
     </div>
-  );
-}
-
-/** Missing colours are a problem, unless a texture replaces them. */
-const kOfColours = ['material_file_missing', 'material_missing'];
-
-/** What the worker noticed while it read the model. */
-function Notes() {
-  const { warnings = [] } = shape.value?.summary ?? {};
-  const notes = warnings.filter(({ code }) => !kOfColours.includes(code));
-  if (notes.length === 0) return null;
-  return (
-    <ul class="problems">
-      {notes.map(({ code, message }) => (
-        <li key={code + message}>
-          <Icon name="warning" /> {message}.
-        </li>
-      ))}
-    </ul>
   );
 }
 

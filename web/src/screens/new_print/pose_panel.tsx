@@ -2,6 +2,7 @@ import { dipsOf } from '../../model/dips';
 import { fromAngles, kUpright, product, toAngles, turn, type Vec3 } from '../../model/pose';
 import { formatMm } from '../../model/units';
 import { Choice, NumberField } from '../../ui/controls';
+import { WarningLines } from '../../ui/warning';
 import { calibrated, calibrations, staleness } from './calibration';
 import { AddDip, DipList } from './dips_panel';
 import { change, draft, shape } from './draft';
@@ -51,11 +52,7 @@ function Measured() {
           `. For 95 % of the surface, the error of this pose is at most ${formatMm(calibration.errorP95Mm, 2)}`}
         .
       </p>
-      {(calibration.warnings ?? []).map((warning) => (
-        <p class="warning" key={warning}>
-          {warning}
-        </p>
-      ))}
+      <WarningLines warnings={calibration.warnings} />
       {why && (
         <p class="warning">
           This calibration is no longer valid: {why}. Calibrate again, or enter the pose manually.

@@ -3,12 +3,11 @@
  * usual models well under a second after the last change. All code for previews is in this file.
  */
 import { computed, effect, signal } from '@preact/signals';
-import type { SimulateSpecInput } from '../../api/types';
+import type { SimulateSpecInput, Warning } from '../../api/types';
 import { daemon } from '../../engine/daemon';
 import type { DipPreview, Places } from '../../engine/engine';
 import { dipsOf, type Dip } from '../../model/dips';
 import { nameFor } from '../../model/files';
-import type { Warning } from '../../model/report';
 import { done, wordsOf, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
 import { calibrated } from './calibration';

@@ -1,12 +1,13 @@
 import { useEffect } from 'preact/hooks';
+import type { Warning } from '../../api/types';
 import { formatFactor, formatSeconds, formatShare } from '../../model/units';
 import { Figures, Progress } from '../../ui/controls';
-import { Icon } from '../../ui/icon';
+import { WarningList } from '../../ui/warning';
 import { draft, shape } from './draft';
 import { followPreview, isComputing, shown, trouble } from './preview';
 
 /** Previews are Stokes flow, even if the print will be computed by another model. */
-const kOfStokes = ['stretch_beyond_stokes', 'drag_ignored'];
+const kOfStokes: readonly Warning['code'][] = ['STRETCH_BEYOND_STOKES', 'DRAG_IGNORED'];
 
 /** Preview of the print in the current pose. */
 export function PreviewPanel() {
@@ -19,7 +20,7 @@ export function PreviewPanel() {
     );
   const now = shown.value;
   if (!now && !isComputing.value) return null;
-  const known = new Set(shape.value?.summary.warnings?.map(({ message }) => message));
+  const known = new Set(shape.value?.summary.warnings.map(({ message }) => message));
   const isStokes = draft.value.model === 'MODEL_STOKES';
   return (
     <section aria-labelledby="preview-title" aria-live="polite">
@@ -37,16 +38,11 @@ export function PreviewPanel() {
           ]}
         />
       )}
-      <ul class="problems">
-        {now?.warnings
-          .filter(({ message }) => !known.has(message))
-          .filter(({ code }) => isStokes || !kOfStokes.includes(code))
-          .map(({ code, message, where }) => (
-            <li key={code + where}>
-              <Icon name="warning" /> {message}.
-            </li>
-          ))}
-      </ul>
+      <WarningList
+        warnings={(now?.warnings ?? []).filter(
+          ({ code, message }) => !known.has(message) && (isStokes || !kOfStokes.includes(code)),
+        )}
+      />
     </section>
   );
 }

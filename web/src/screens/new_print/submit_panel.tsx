@@ -97,7 +97,7 @@ function isBeside({ centre_mm: [x, y] }: Pose): boolean {
 /** True if the film would stay blank. */
 function lacksColours(): boolean {
   const { spec } = draft.value.from ?? {};
-  const hasOwn = shape.value?.summary.has_colour;
+  const hasOwn = shape.value?.summary.hasColour;
   return !hasOwn && !arrangement.value.texture && !spec?.texture && !spec?.paint;
 }
 

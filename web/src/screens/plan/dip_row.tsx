@@ -4,6 +4,7 @@ import { jobPath } from '../../route';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
 import { numberOf } from '../../ui/job_text';
+import { WarningLines } from '../../ui/warning';
 import { compute } from './actions';
 import { dipPath, filesOf, stateClass, stateText } from './steps';
 
@@ -54,11 +55,7 @@ export function Warnings({ dip, role }: { dip: PlannedDip; role?: 'alert' }) {
           {dip.trouble}.
         </p>
       )}
-      {(dip.warnings ?? []).map((warning) => (
-        <p class="warning" key={warning}>
-          {warning}
-        </p>
-      ))}
+      <WarningLines warnings={dip.warnings} />
     </>
   );
 }

@@ -6,7 +6,7 @@ import { againPath } from '../../route';
 import { rig } from '../../state/rig';
 import { may } from '../../state/session';
 import { Button } from '../../ui/controls';
-import { dipText, withoutDip } from '../../ui/job_text';
+import { dipText } from '../../ui/job_text';
 import { DipRow, PdfLink, Warnings } from './dip_row';
 import { follow, progress } from './progress';
 import { take } from './actions';
@@ -62,7 +62,7 @@ function Next({ plan, dip, dips }: { plan: Job; dip: PlannedDip; dips: number })
     <section class="dip next" aria-labelledby="next-title">
       <h2 id="next-title">{dipText(dip.immersion, dips)}</h2>
       <p class="instruction" role="status">
-        {withoutDip(dip.instruction)}
+        {dip.instruction}
       </p>
       <Warnings dip={dip} role="alert" />
       {dip.step === 'CALIBRATE' && <PlannedPose dip={dip} />}

@@ -176,7 +176,7 @@ function Row({ job }: { job: Job }) {
         </span>
       </th>
       <td>
-        <State state={job.state} phase={job.phase} />{' '}
+        <State state={job.state} waitsFor={job.waitsFor} />{' '}
         {(job.state === 'RUNNING' || job.state === 'CANCELLING') && <JobProgress job={job} />}
         {place >= 0 && <span class="quiet">position {place + 1}</span>}
         {job.state === 'FAILED' && <span class="why">{job.error?.message}</span>}

@@ -8,7 +8,8 @@ import { orNotify } from '../../state/notices';
 import { isOurs, leaseId, rig } from '../../state/rig';
 import { secondsUntil } from '../../ui/clock';
 import { Button, ConfirmButton } from '../../ui/controls';
-import { dipText, State, withoutDip } from '../../ui/job_text';
+import { dipText, State } from '../../ui/job_text';
+import { WarningLines } from '../../ui/warning';
 import { Jog } from './jog';
 
 /**
@@ -58,7 +59,7 @@ export function DipGuide({ name }: { name: string }) {
         {titleOf(status)}, step {at + 1} of {kSteps.length}: {here?.title}
       </h2>
       <p class="instruction" role="status">
-        {withoutDip(status.instruction)}
+        {status.instruction}
       </p>
       {status.picture && kHanging.includes(status.step) && (
         <img class="planned-pose" src={imageAddress(status.picture)} alt="The planned pose" />
@@ -76,11 +77,7 @@ export function DipGuide({ name }: { name: string }) {
             : `The film became too old ${formatSeconds(-Math.floor(film))} ago; the print may be poor`}
         </p>
       )}
-      {(status.warnings ?? []).map((warning) => (
-        <p class="warning" key={warning}>
-          {warning}
-        </p>
-      ))}
+      <WarningLines warnings={status.warnings} />
       {status.step === 'FIND_CONTACT' && isOurs.value && (
         <Jog fastest_mm_per_s={rig.value?.axis?.maxSpeedMmPerS ?? 10} />
       )}
