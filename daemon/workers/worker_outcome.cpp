@@ -121,7 +121,7 @@ JobFailure judge_signal(int signal) {
 }
 
 // Returns the error that a program printed as JSON for its failure: message, reason and field;
-// empty if there is none. The program is untrusted.
+// empty if it printed no error. The program is untrusted.
 Error printed_error(std::string_view answer) {
   const auto object = parse_json(last_of(answer)).value_or(nullptr);
   const auto& error = json_at(object, "error");

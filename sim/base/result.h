@@ -93,8 +93,8 @@ struct Place {
   int dip = 0;  ///< dip of a plan, from 1; 0: not about one dip
 };
 
-/// Describes a place for people: "dip 2, 12.30 mm immersion, at (-4.00, 17.50) mm"; empty if there
-/// is none.
+/// Describes a place for people: "dip 2, 12.30 mm immersion, at (-4.00, 17.50) mm"; empty for a
+/// warning about the whole result.
 [[nodiscard]] std::string words_of(const Place& place);
 
 /// An assumption that was made, or something for the user to check; see

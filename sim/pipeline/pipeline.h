@@ -109,8 +109,7 @@ struct DipFigures {
   double worst_error_immersion_mm = 0;  ///< where the stated error is largest
 };
 
-/// Bits that tell what is wrong with a face, the property `flags` of surface_map.ply; see
-/// face_flags().
+/// Problems of a face, as bits of the property `flags` of surface_map.ply; see face_flags().
 enum FaceFlag : std::uint8_t {
   kTorn = 1,
   kWrinkled = 2,

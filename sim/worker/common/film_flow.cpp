@@ -55,7 +55,7 @@ void add_ink_passes(const std::vector<pipeline::InkPass>& passes, v1::FlowFacts&
   }
 }
 
-/// Returns the quantiles of the stretch; nullopt if there is no surface to take it from.
+/// Returns the quantiles of the stretch; nullopt if film reaches no surface.
 std::optional<pipeline::StretchQuantiles> stretch_of(const pipeline::DipFigures& figures) {
   if (figures.stretch_max <= 0) return std::nullopt;
   return pipeline::StretchQuantiles{figures.stretch_p50, figures.stretch_p95, figures.stretch_max};
