@@ -42,7 +42,7 @@ class Watcher {
       const Error error = status.ok()
                               ? Error{Code::kUnavailable, "the daemon closed the stream", {}}
                               : to_error(connection_, status);
-      if (error.reason == "EVENTS_GONE" && request_.has_after_seq()) {
+      if (error.reason == ErrorReason::EVENTS_GONE && request_.has_after_seq()) {
         request_.clear_after_seq();
         continue;
       }

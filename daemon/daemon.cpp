@@ -198,7 +198,7 @@ Status Daemon::make_first_admin(const std::string& name) {
     return fail(
         Code::kFailedPrecondition,
         fmt::format("--first-admin: {} exists but is not an active admin; name another user", name),
-        "STATE_FORBIDS");
+        ErrorReason::STATE_FORBIDS);
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts_->sessions().make_link(name));
   auth::AuditEntry entry;

@@ -5,6 +5,7 @@ function(enum_header proto enum header class)
   file(STRINGS ${proto} lines)
   set(values "")
   set(cases "")
+  set(names "")
   set(inside FALSE)
   foreach(line IN LISTS lines)
     if(line MATCHES "^ *enum ${enum} {")
@@ -13,6 +14,7 @@ function(enum_header proto enum header class)
       break()
     elseif(inside AND line MATCHES "^ *([A-Z][A-Z0-9_]*) = ([0-9]+);")
       string(APPEND values "  ${CMAKE_MATCH_1} = ${CMAKE_MATCH_2},\n")
+      string(APPEND names "  if (name == \"${CMAKE_MATCH_1}\") return value = ${class}::${CMAKE_MATCH_1}, true;\n")
       string(APPEND cases "    case ${class}::${CMAKE_MATCH_1}:\n      return \"${CMAKE_MATCH_1}\";\n")
     endif()
   endforeach()
@@ -35,6 +37,11 @@ constexpr std::string_view name_of(${class} value) {
   switch (value) {
 @cases@  }
   return {};
+}
+
+/// Sets a value to the one of this name; false for other names.
+constexpr bool parse(std::string_view name, ${class}& value) {
+@names@  return false;
 }
 
 }  // namespace hydroprint

@@ -5,8 +5,6 @@
 namespace hydroprint {
 namespace {
 
-std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
-
 /// Sets each kind of place.
 struct SetPlace {
   v1::Place& out;
@@ -21,14 +19,14 @@ struct SetPlace {
   void operator()(const OnSurface& /*all*/) const { out.set_surface(true); }
   void operator()(const AtImmersion& at) const { out.set_immersion_mm(at.immersion_mm); }
   void operator()(const InFile& file) const {
-    out.mutable_file()->set_name(utf8(file.name));
+    out.mutable_file()->set_name(valid_utf8(file.name));
     out.mutable_file()->set_line(file.line);
   }
-  void operator()(const InLayer& layer) const { out.set_layer(utf8(layer.name)); }
+  void operator()(const InLayer& layer) const { out.set_layer(valid_utf8(layer.name)); }
   void operator()(const OnSheet& sheet) const { out.set_sheet(sheet.number); }
-  void operator()(const AtMarker& marker) const { out.set_marker(utf8(marker.name)); }
-  void operator()(const OfResource& resource) const { out.set_resource(utf8(resource.name)); }
-  void operator()(const OfItem& item) const { out.set_item(utf8(item.name)); }
+  void operator()(const AtMarker& marker) const { out.set_marker(valid_utf8(marker.name)); }
+  void operator()(const OfResource& resource) const { out.set_resource(valid_utf8(resource.name)); }
+  void operator()(const OfItem& item) const { out.set_item(valid_utf8(item.name)); }
 };
 
 Place place_of(const v1::Place& message) {
@@ -65,7 +63,7 @@ Place place_of(const v1::Place& message) {
 v1::Warning to_message(const Warning& warning) {
   v1::Warning out;
   out.set_code(static_cast<v1::Warning::Code>(warning.code));
-  out.set_message(utf8(warning.message));
+  out.set_message(valid_utf8(warning.message));
   const Place& where = warning.where;
   if (std::holds_alternative<std::monostate>(where.place) && where.dip == 0) return out;
   out.mutable_where()->set_dip(where.dip);

@@ -79,17 +79,20 @@ void add_commands(CLI::App& app, Program& program) {
   add_help(app, program);
 }
 
-void report(const Program& program, const Error& error) {
+void report(const CLI::App& app, const Program& program, const Error& error) {
   if (program.json()) print({{"error", to_json(error)}});
   const auto wrong_fields = error.metadata.find(client::kWrongFields);
   if (wrong_fields == error.metadata.end()) {
-    std::cerr << "hydroprint: " << printable(error.message) << std::endl;
+    const std::string word = error.field.empty() ? "" : word_of_field(app, error.field) + ": ";
+    std::cerr << "hydroprint: " << printable(word + error.message) << std::endl;
     return;
   }
   std::cerr << "hydroprint: the request has several wrong fields:" << std::endl;
   std::istringstream lines(wrong_fields->second);
   for (std::string line; std::getline(lines, line);) {
-    std::cerr << "  " << printable(line) << std::endl;
+    const std::size_t tab = line.find('\t');
+    std::cerr << "  " << printable(word_of_field(app, line.substr(0, tab))) << ": "
+              << printable(line.substr(tab + 1)) << std::endl;
   }
 }
 
@@ -113,7 +116,7 @@ int run(int argc, char** argv) {
   }
   const Status status = program.run();
   if (!status) {
-    report(program, in_our_words(status.error()));
+    report(app, program, in_our_words(status.error()));
     return exit_code(status.error());
   }
   if (std::cout.flush()) return 0;

@@ -8,8 +8,8 @@
 
 namespace hydroprint::client {
 
-/// Key in the metadata of an error that lists all wrong fields of a request, one per line, if there
-/// are several.
+/// Key in the metadata of an error that lists all wrong fields of a request, as
+/// "FIELD<tab>PROBLEM", one per line, if there are several.
 inline constexpr const char* kWrongFields = "wrong_fields";
 
 /// The address of a daemon, and the caller's identity.

@@ -57,19 +57,25 @@ void take_error_info(const google::rpc::Status& details, Error& error) {
   google::rpc::ErrorInfo info;
   for (const auto& detail : details.details()) {
     if (!detail.UnpackTo(&info)) continue;
-    error.reason = info.reason();
+    parse(info.reason(), error.reason);
     error.metadata = {info.metadata().begin(), info.metadata().end()};
+    error.metadata.erase("field");  // see take_wrong_fields()
   }
 }
 
 void take_wrong_fields(const google::rpc::Status& details, Error& error) {
   google::rpc::BadRequest request;
   for (const auto& detail : details.details()) {
-    if (!detail.UnpackTo(&request) || request.field_violations_size() < 2) continue;
+    if (!detail.UnpackTo(&request)) continue;
+    if (request.field_violations_size() == 1) {
+      error.field = request.field_violations(0).field();
+      error.message = one_line(request.field_violations(0).description());
+      continue;
+    }
     std::string& lines = error.metadata[kWrongFields];
     for (const auto& violation : request.field_violations()) {
-      lines += (lines.empty() ? "" : "\n") +
-               one_line(fmt::format("{}: {}", violation.field(), violation.description()));
+      lines += (lines.empty() ? "" : "\n") + one_line(violation.field()) + "\t" +
+               one_line(violation.description());
     }
   }
 }
@@ -99,7 +105,7 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     take_error_info(details, error);
     take_wrong_fields(details, error);
   }
-  if (error.code == Code::kUnavailable && error.reason.empty()) {
+  if (error.code == Code::kUnavailable && error.reason == ErrorReason{}) {
     if (const std::string trouble = tls_trouble(options); !trouble.empty()) {
       return {Code::kFailedPrecondition, options.server + ": " + trouble, {}};
     }

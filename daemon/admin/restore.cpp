@@ -136,7 +136,7 @@ class Unpacked {
                   file_.string() +
                       ": was made by another build of hydroprint; restore it with that "
                       "build. Nothing was restored",
-                  "STORE_DIFFERS");
+                  ErrorReason::STORE_DIFFERS);
     }
     HP_ASSIGN_OR_RETURN(const auto database, daemon::open_store(path));
     std::string verdict;

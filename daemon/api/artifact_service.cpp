@@ -79,7 +79,7 @@ class ArtifactService final : public v1::ArtifactService::Service {
           fail(Code::kOutOfRange,
                fmt::format("offset: must be from 0 to {}, the size of the artifact in bytes",
                            artifact.size_bytes),
-               "OFFSET_MISMATCH");
+               ErrorReason::OFFSET_MISMATCH);
       error.value().metadata["expected_offset"] = std::to_string(artifact.size_bytes);
       return error;
     }
@@ -93,7 +93,8 @@ class ArtifactService final : public v1::ArtifactService::Service {
   }
 
   static tl::unexpected<Error> damaged(const std::string& name) {
-    return fail(Code::kDataLoss, name + ": the file is damaged; retry the job", "ARTIFACT_DAMAGED");
+    return fail(Code::kDataLoss, name + ": the file is damaged; retry the job",
+                ErrorReason::ARTIFACT_DAMAGED);
   }
 
   static Status send(const v1::DownloadArtifactRequest& request, const UniqueFd& file,

@@ -164,10 +164,11 @@ class EventService final : public v1::EventService::Service {
   grpc::Status WatchEvents(grpc::ServerContext* context, const v1::WatchEventsRequest* request,
                            grpc::ServerWriter<v1::WatchEventsResponse>* writer) override {
     const int before = watches_.fetch_add(1);
-    const Status status = before < kMaxEventWatches
-                              ? watch(*context, *request, *writer)
-                              : fail(Code::kResourceExhausted,
-                                     "too many watches are open; try again later", "WATCHES_FULL");
+    const Status status =
+        before < kMaxEventWatches
+            ? watch(*context, *request, *writer)
+            : fail(Code::kResourceExhausted, "too many watches are open; try again later",
+                   ErrorReason::WATCHES_FULL);
     watches_.fetch_sub(1);
     return to_grpc(status);
   }

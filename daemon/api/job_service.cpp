@@ -95,7 +95,7 @@ class JobService final : public v1::JobService::Service {
                                                : fail(Code::kResourceExhausted,
                                                       "too many watches are open; list events "
                                                       "instead, or try again later",
-                                                      "WATCHES_FULL");
+                                                      ErrorReason::WATCHES_FULL);
     watches_.fetch_sub(1);
     return to_grpc(status);
   }
@@ -175,7 +175,7 @@ class JobService final : public v1::JobService::Service {
     HP_RETURN_IF_ERROR(backend_.jobs.artifact(job.id, kReport));
     auto report = read_report(backend_.layout.artifacts(job.id), job.definition.work.verb);
     if (report && report->report_case() == v1::JobReport::REPORT_NOT_SET)
-      return fail(Code::kNotFound, name + " has no report", "ARTIFACT_NOT_FOUND");
+      return fail(Code::kNotFound, name + " has no report", ErrorReason::ARTIFACT_NOT_FOUND);
     return report;
   }
 
@@ -233,7 +233,7 @@ class JobService final : public v1::JobService::Service {
     }
     if (why.empty()) return {};
     return fail(Code::kFailedPrecondition, fmt::format("{} is {}", job_name(job.id), why),
-                "STATE_FORBIDS");
+                ErrorReason::STATE_FORBIDS);
   }
 
   Status list(const grpc::ServerContext& context, const v1::ListJobsRequest& request,

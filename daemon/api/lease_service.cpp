@@ -27,8 +27,10 @@ class LeaseService final : public v1::LeaseService::Service {
                         v1::Lease* reply) override {
     const auto lease = leases().current();
     if (!lease) {
-      return to_grpc(Error{
-          Code::kNotFound, "nobody holds the rig's lease; acquire it", "LEASE_NOT_FOUND", {}});
+      return to_grpc(Error{Code::kNotFound,
+                           "nobody holds the rig's lease; acquire it",
+                           ErrorReason::LEASE_NOT_FOUND,
+                           {}});
     }
     *reply = to_message(*lease, false);
     return grpc::Status::OK;

@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kSignInWritten{2000};  // timeout for writin
 Result<std::string> name_in(const std::string& collection, const std::string& name) {
   if (!name.starts_with(collection + "/")) {
     return fail(Code::kInvalidArgument, "name: must have the form " + collection + "/NAME",
-                "ID_INVALID");
+                ErrorReason::ID_INVALID);
   }
   std::string id = name.substr(collection.size() + 1);
   HP_RETURN_IF_ERROR(auth::check_user_name("name", id));
@@ -156,7 +156,7 @@ class PeopleService final : public v1::PeopleService::Service {
   // with them.
   void note_sign_in(const grpc::ServerContext& context, const v1::SignInRequest& request,
                     const Result<auth::SignedIn>& outcome) {
-    if (!outcome && outcome.error().reason == "TOO_MANY_ATTEMPTS") return;
+    if (!outcome && outcome.error().reason == ErrorReason::TOO_MANY_ATTEMPTS) return;
     auth::AuditEntry entry;
     entry.via = request.link_token().empty() ? "password" : "link";
     entry.peer = credentials_of(context).peer;
@@ -167,7 +167,7 @@ class PeopleService final : public v1::PeopleService::Service {
     } else {
       const bool is_name = auth::check_user_name("user", request.user()).has_value();
       if (is_name) entry.object = "users/" + request.user();
-      entry.detail = outcome.error().reason;
+      entry.detail = name_of(outcome.error().reason);
       log(LogLevel::kWarning, "sign_in_failed", {{"peer", entry.peer}, {"object", entry.object}});
     }
     const std::uint64_t noted = backend_.audit.note(std::move(entry));
@@ -279,7 +279,7 @@ class PeopleService final : public v1::PeopleService::Service {
     if (right || right.error().code != Code::kUnauthenticated) return right;
     return fail(Code::kPermissionDenied,
                 "old_password: wrong password; if you have forgotten it, ask an admin to reset it",
-                "SIGN_IN_FAILED");
+                ErrorReason::SIGN_IN_FAILED);
   }
 
   Status link(const v1::CreateSignInLinkRequest& request, v1::SignInLink& reply) {
@@ -317,7 +317,7 @@ class PeopleService final : public v1::PeopleService::Service {
     if (!caller.is_user) {
       return fail(Code::kFailedPrecondition,
                   "there are no users yet, so keys are not needed; create a user first",
-                  "STATE_FORBIDS");
+                  ErrorReason::STATE_FORBIDS);
     }
     HP_RETURN_IF_ERROR(check_fields(request));
     auth::NewKey new_key{caller.name, request.display_name(), caller.role, 0};
@@ -338,7 +338,7 @@ class PeopleService final : public v1::PeopleService::Service {
     const auto key = backend_.accounts.keys().get(id);
     if (!key || is_hidden(caller, key->user)) {
       return fail(Code::kNotFound, request.name() + " does not exist, or belongs to another user",
-                  "KEY_NOT_FOUND");
+                  ErrorReason::KEY_NOT_FOUND);
     }
     return backend_.accounts.keys().remove(id);
   }
@@ -370,7 +370,7 @@ class PeopleService final : public v1::PeopleService::Service {
     const auto session = backend_.accounts.sessions().get(id);
     if (!session || is_hidden(caller, session->user)) {
       return fail(Code::kNotFound, request.name() + " does not exist, or belongs to another user",
-                  "SESSION_NOT_FOUND");
+                  ErrorReason::SESSION_NOT_FOUND);
     }
     return backend_.accounts.sessions().end(id);
   }

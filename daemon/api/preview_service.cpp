@@ -78,7 +78,7 @@ class PreviewService final : public v1::PreviewService::Service {
                   fmt::format("the worker's preview cannot be read: {}; check that workers.program "
                               "is hydroprint-worker",
                               error.what()),
-                  "WORKER_UNUSABLE");
+                  ErrorReason::WORKER_UNUSABLE);
     }
     return {};
   }

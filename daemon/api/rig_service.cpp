@@ -57,7 +57,7 @@ class RigService final
             ? watch(*context, *request, *writer)
             : fail(Code::kResourceExhausted,
                    "too many watches are open; poll the rig's state instead, or try again later",
-                   "WATCHES_FULL");
+                   ErrorReason::WATCHES_FULL);
     watches_.fetch_sub(1);
     return to_grpc(status);
   }

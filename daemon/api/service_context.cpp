@@ -18,17 +18,18 @@ Result<int> page_size(std::int32_t size, int default_size) {
 Status check_serving(const ServiceContext& backend) {
   if (!backend.stopping) return {};
   return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
-              "SHUTTING_DOWN");
+              ErrorReason::SHUTTING_DOWN);
 }
 
 Error never_again(Error error) {
-  if (error.code == Code::kUnavailable || error.reason == "DRIVE_BUSY") error.code = Code::kAborted;
+  if (error.code == Code::kUnavailable || error.reason == ErrorReason::DRIVE_BUSY)
+    error.code = Code::kAborted;
   return error;
 }
 
 tl::unexpected<Error> bad_page_token() {
   return fail(Code::kInvalidArgument, "page_token: not valid; repeat the request without it",
-              "PAGE_TOKEN_INVALID");
+              ErrorReason::PAGE_TOKEN_INVALID);
 }
 
 Result<std::int64_t> number_token(const std::string& token) {

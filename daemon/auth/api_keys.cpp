@@ -43,13 +43,14 @@ Result<std::pair<ApiKey, std::string>> ApiKeys::create(const NewKey& fields) {
   if (fields.display_name.size() > kLongestKeyName || has_control_characters(fields.display_name)) {
     return fail(Code::kInvalidArgument,
                 "display_name: must be at most 100 bytes without control characters",
-                "SPEC_INVALID");
+                ErrorReason::SPEC_INVALID);
   }
   const std::lock_guard writing(rows_.writing);
   HP_RETURN_IF_ERROR(users_.get(fields.user));
   if (list(fields.user, "", most_).size() >= most_) {
     return fail(Code::kResourceExhausted,
-                "users/" + fields.user + ": too many API keys; delete some first", "KEYS_FULL");
+                "users/" + fields.user + ": too many API keys; delete some first",
+                ErrorReason::KEYS_FULL);
   }
   const std::int64_t now_ms = clock_();
   const std::string secret = random_hex(kKeySecretBytes);
@@ -86,7 +87,7 @@ Result<ApiKey> ApiKeys::get(const std::string& id) const {
   const std::lock_guard lock(rows_.memory);
   const auto found = rows_.keys.find(id);
   if (found == rows_.keys.end()) {
-    return fail(Code::kNotFound, "apiKeys/" + id + " does not exist", "KEY_NOT_FOUND");
+    return fail(Code::kNotFound, "apiKeys/" + id + " does not exist", ErrorReason::KEY_NOT_FOUND);
   }
   return found->second;
 }

@@ -34,7 +34,7 @@ tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials) {
               has_some ? "the API key or session is no longer valid; sign in again, or "
                          "create another API key"
                        : "sign-in required; sign in (hydroprint login), or send an API key",
-              "SIGN_IN_NEEDED");
+              ErrorReason::SIGN_IN_NEEDED);
 }
 
 Status Authenticator::check_still(const auth::Caller& caller) const {
@@ -69,7 +69,7 @@ Status check_role(const auth::Caller& caller, auth::Role needed) {
                       caller.name + " has the role " + auth::name_of(caller.role) +
                           ", but this request requires the role " + auth::name_of(needed) +
                           "; ask an admin for it",
-                      "ROLE_TOO_LOW");
+                      ErrorReason::ROLE_TOO_LOW);
   refused.value().metadata = {{"role", auth::name_of(caller.role)},
                               {"needed", auth::name_of(needed)}};
   return refused;

@@ -20,7 +20,7 @@ tl::unexpected<Error> no_memory_for_passwords() {
   return fail(Code::kResourceExhausted,
               "not enough memory to check the password; try again later, or lower "
               "people.password_memory_mib",
-              "OUT_OF_MEMORY");
+              ErrorReason::MEMORY_LIMIT);
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ class Permit {
     if (granted_) return {};
     auto refused =
         fail(Code::kResourceExhausted, "too many others are signing in; try again in a few seconds",
-             "TOO_MANY_ATTEMPTS");
+             ErrorReason::TOO_MANY_ATTEMPTS);
     refused.value().metadata["retry_s"] = "5";
     return refused;
   }
@@ -74,10 +74,8 @@ Result<std::string> argon2id(const std::string& password, const PasswordCost& co
 
 Status check_password_length(const std::string& password) {
   if (password.size() >= kShortestPassword && password.size() <= kLongestPassword) return {};
-  auto refused = fail(Code::kInvalidArgument,
-                      "password: must be 10 to 1000 bytes long; use a few words", "SPEC_INVALID");
-  refused.value().metadata["field"] = "password";
-  return refused;
+  return fail_field(Code::kInvalidArgument, "password",
+                    "must be 10 to 1000 bytes long; use a few words", ErrorReason::SPEC_INVALID);
 }
 
 Passwords::Passwords(const PasswordCost& cost) : impl_(std::make_unique<Impl>()) {

@@ -28,7 +28,7 @@ class Passwords {
   Passwords& operator=(const Passwords&) = delete;
 
   /// Hashes a password with argon2id; the result contains parameters, salt and hash.
-  /// @return kResourceExhausted: TOO_MANY_ATTEMPTS if too many checks are waiting, OUT_OF_MEMORY
+  /// @return kResourceExhausted: TOO_MANY_ATTEMPTS if too many checks are waiting, MEMORY_LIMIT
   [[nodiscard]] Result<std::string> hash(const std::string& password);
 
   /// Returns whether the password matches. If the user has no password (`hashed` is empty), the

@@ -44,7 +44,7 @@ Result<std::optional<auth::Caller>> RoleCheck::admit(std::string_view method,
   if (found == rules_.end()) {
     return fail(Code::kUnimplemented,
                 "the daemon does not have this method; check its name, or update the daemon",
-                "METHOD_NOT_FOUND");
+                ErrorReason::ROUTE_NOT_FOUND);
   }
   const auto& [need, stops_motion] = found->second;
   auto caller = authenticator_->caller(credentials);

@@ -11,7 +11,8 @@ namespace hydroprint::auth {
 
 Status start_cryptography() {
   if (sodium_init() >= 0) return {};
-  return fail(Code::kInternal, "libsodium cannot be used on this machine", "STORE_FAILED");
+  return fail(Code::kInternal, "libsodium cannot be used on this machine",
+              ErrorReason::STORE_FAILED);
 }
 
 std::string random_hex(std::size_t bytes) {

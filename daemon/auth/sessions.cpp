@@ -15,7 +15,7 @@ constexpr std::size_t kSessionIdBytes = 8;
 constexpr std::size_t kLongestToken = 1000;
 
 tl::unexpected<Error> sign_in_failed(const char* what) {
-  return fail(Code::kUnauthenticated, what, "SIGN_IN_FAILED");
+  return fail(Code::kUnauthenticated, what, ErrorReason::SIGN_IN_FAILED);
 }
 
 tl::unexpected<Error> too_many_attempts(std::int64_t wait_ms) {
@@ -23,7 +23,7 @@ tl::unexpected<Error> too_many_attempts(std::int64_t wait_ms) {
   auto refused =
       fail(Code::kResourceExhausted,
            fmt::format("too many attempts to sign in failed; try again in {} s", seconds),
-           "TOO_MANY_ATTEMPTS");
+           ErrorReason::TOO_MANY_ATTEMPTS);
   refused.value().metadata["retry_s"] = fmt::to_string(seconds);
   return refused;
 }
@@ -164,7 +164,8 @@ Result<Session> Sessions::get(const std::string& id) const {
   for (const auto& [hash, session] : rows_.sessions) {
     if (session.id == id && is_valid(session)) return session;
   }
-  return fail(Code::kNotFound, "sessions/" + id + " does not exist", "SESSION_NOT_FOUND");
+  return fail(Code::kNotFound, "sessions/" + id + " does not exist",
+              ErrorReason::SESSION_NOT_FOUND);
 }
 
 Status Sessions::end(const std::string& id) {

@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kMostUsers = 10000;
 
 tl::unexpected<Error> no_such_user(const std::string& name) {
-  return fail(Code::kNotFound, "users/" + name + ": unknown user", "USER_NOT_FOUND");
+  return fail(Code::kNotFound, "users/" + name + ": unknown user", ErrorReason::USER_NOT_FOUND);
 }
 
 bool is_active_admin(const User& user) { return user.role == Role::kAdmin && !user.disabled; }
@@ -26,13 +26,10 @@ Status check_user_name(const std::string& field, const std::string& name) {
       std::all_of(name.begin(), name.end(), is_good)) {
     return {};
   }
-  auto refused = fail(Code::kInvalidArgument,
-                      field +
-                          ": must be 1 to 64 letters, digits and . _ - @ +, and begin with a "
-                          "letter or digit",
-                      field == "name" ? "ID_INVALID" : "SPEC_INVALID");
-  refused.value().metadata["field"] = field;
-  return refused;
+  return fail_field(
+      Code::kInvalidArgument, field,
+      "must be 1 to 64 letters, digits and . _ - @ +, and begin with a letter or digit",
+      field == "name" ? ErrorReason::ID_INVALID : ErrorReason::SPEC_INVALID);
 }
 
 bool Users::any() const {
@@ -68,7 +65,7 @@ Status Users::check_admin_without(const std::string& name, const User* instead) 
   return fail(
       Code::kFailedPrecondition,
       "users/" + name + ": there must be at least one active admin; make another user admin first",
-      "LAST_ADMIN");
+      ErrorReason::LAST_ADMIN);
 }
 
 Status Users::write(const User& user) {
@@ -100,7 +97,7 @@ Status Users::check_name_is_free(const std::string& name) {
           ": a deleted user had this name, and jobs, files or the audit log still refer to it; "
           "choose another name, or confirm that it is the same person (hydroprint users add "
           "--returns)",
-      "USER_NAME_USED");
+      ErrorReason::USER_NAME_USED);
 }
 
 Result<User> Users::create(const User& user, const std::string& password, bool returns) {
@@ -116,12 +113,12 @@ Result<User> Users::create(const User& user, const std::string& password, bool r
     return fail(
         Code::kAlreadyExists,
         "users/" + created.name + ": already exists; choose another name, or change that user",
-        "USER_EXISTS");
+        ErrorReason::USER_EXISTS);
   }
   HP_RETURN_IF_ERROR(check_admin_without(created.name, &created));
   if (!returns) HP_RETURN_IF_ERROR(check_name_is_free(created.name));
   if (list("", kMostUsers).size() >= kMostUsers) {
-    return fail(Code::kResourceExhausted, "too many users; delete some", "KEYS_FULL");
+    return fail(Code::kResourceExhausted, "too many users; delete some", ErrorReason::KEYS_FULL);
   }
   created.create_ms = clock_();
   HP_RETURN_IF_ERROR(write(created));

@@ -26,7 +26,7 @@ tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char
   auto refused = fail(Code::kPermissionDenied,
                       job_name(job.id) + ": belongs to " + job.definition.owner + ", not to " +
                           caller.name + "; " + what,
-                      "NOT_YOURS");
+                      ErrorReason::NOT_YOURS);
   refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.definition.owner}};
   return refused;
 }

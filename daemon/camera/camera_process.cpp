@@ -20,7 +20,6 @@ constexpr std::chrono::seconds kTimeToEnd{2};
 // precise error first.
 constexpr std::chrono::seconds kStartupMargin{10};
 constexpr std::int64_t kDay_s = 24LL * 3600;
-constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";
 
 Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder) {
   Launch out;
@@ -102,7 +101,7 @@ std::optional<Error> CameraProcess::failure() const {
   if (timed_out_) {
     return Error{Code::kUnavailable,
                  "the camera does not respond; unplug it and plug it in again",
-                 "CAMERA_STALLED",
+                 ErrorReason::CAMERA_STALLED,
                  {}};
   }
   auto why = judge(*wait_status_, StopReason::kNothing, words_, buffer_);
@@ -110,12 +109,11 @@ std::optional<Error> CameraProcess::failure() const {
     return Error{Code::kUnavailable,
                  "the camera program ended unexpectedly; check that "
                  "camera.program is hydroprint-capture",
-                 "WORKER_UNUSABLE",
+                 ErrorReason::WORKER_UNUSABLE,
                  {}};
   }
   Error& error = why->error;
   error.code = Code::kUnavailable;
-  if (error.message.starts_with(kProgramPrefix)) error.message.erase(0, kProgramPrefix.size());
   return std::move(error);
 }
 

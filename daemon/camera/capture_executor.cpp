@@ -54,7 +54,7 @@ Status CaptureExecutor::check_camera_and_rig() const {
   const rig::Controller* rig = dependencies_.gateway.controller();
   if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
     return fail(Code::kAborted, "the axis is moving; wait until it is at rest, or stop it",
-                "MOTION_IN_PROGRESS");
+                ErrorReason::MOTION_IN_PROGRESS);
   }
   return {};
 }
@@ -72,7 +72,7 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   const std::lock_guard lock(mutex_);
   if (end_)
     return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
-                "SHUTTING_DOWN");
+                ErrorReason::SHUTTING_DOWN);
   HP_ASSIGN_OR_RETURN(auto earlier,
                       dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);

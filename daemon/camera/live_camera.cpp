@@ -99,7 +99,7 @@ Result<LivePicture> LiveCamera::recent_picture(const std::function<bool()>& gone
   wake();
   if (waiting_ >= kMaxWaiting) {
     return fail(Code::kResourceExhausted, "too many requests wait for the camera; try again later",
-                "WATCHES_FULL");
+                ErrorReason::WATCHES_FULL);
   }
   const Waiting waiting(waiting_);
   for (Time now = start; now < start + kPictureTimeout; now = LiveClock::now()) {
@@ -109,20 +109,20 @@ Result<LivePicture> LiveCamera::recent_picture(const std::function<bool()>& gone
   }
   return fail(Code::kUnavailable,
               "no picture arrived within 5 s; the camera may still be starting, so try again",
-              "CAMERA_STALLED");
+              ErrorReason::CAMERA_STALLED);
 }
 
 /// Returns the response that is available immediately, if any.
 std::optional<Result<LivePicture>> LiveCamera::available_answer(Time now) const {
   if (stopping_) {
     return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
-                "SHUTTING_DOWN");
+                ErrorReason::SHUTTING_DOWN);
   }
   if (reserved_for_ != 0) {
     const std::string job = job_name(reserved_for_);
     return tl::unexpected(Error{Code::kAborted,
                                 job + " is using the camera; try again when the job has ended",
-                                "CAMERA_BUSY",
+                                ErrorReason::CAMERA_BUSY,
                                 {{"job", job}}});
   }
   if (picture_ && now < picture_time_ + kFresh) return *picture_;
@@ -216,7 +216,7 @@ void LiveCamera::show(const FramedMessage& framed_message, Time now) {
 
 void LiveCamera::fail_for_now(Error error, Time now) {
   log(LogLevel::kWarning, "live_camera_failed",
-      {{"reason", error.reason}, {"message", error.message}});
+      {{"reason", name_of(error.reason)}, {"message", error.message}});
   failure_ = std::move(error);
   retry_time_ = now + kReopenAfter;
   change_.notify_all();

@@ -32,7 +32,7 @@ Status check_exposure(const Config& config) {
                           "(--tls-certificate) is not; TLS needs both"
                         : "server.tls_certificate (--tls-certificate) is set, but server.tls_key "
                           "(--tls-key) is not; TLS needs both",
-                "CONFIG_INVALID");
+                ErrorReason::CONFIG_INVALID);
   }
   const auto exposed_address = exposed_endpoint(config);
   if (!exposed_address || has_certificate) return {};
@@ -40,7 +40,7 @@ Status check_exposure(const Config& config) {
               *exposed_address +
                   " is not a loopback address, so TLS is required; set --tls-certificate FILE and "
                   "--tls-key FILE (see deploy/README.md), or use 127.0.0.1 or [::1]",
-              "CONFIG_INVALID");
+              ErrorReason::CONFIG_INVALID);
 }
 
 Status check_admin(const Config& config, auth::Accounts& accounts) {
@@ -52,7 +52,7 @@ Status check_admin(const Config& config, auth::Accounts& accounts) {
               *exposed_address +
                   " is not a loopback address, but no admin can sign in yet; start the daemon once "
                   "with --first-admin NAME, open the link that it prints, and set a password",
-              "SIGN_IN_NEEDED");
+              ErrorReason::SIGN_IN_NEEDED);
 }
 
 }  // namespace hydroprint::daemon

@@ -14,13 +14,14 @@ Status check_camera(const CameraConfig& setup) {
   return fail(Code::kFailedPrecondition,
               "no camera is configured; set camera.device in the daemon's configuration, or enter "
               "a calibration by hand",
-              "CAMERA_MISSING");
+              ErrorReason::CAMERA_MISSING);
 }
 
 Result<std::string> read_layout_text(const CameraConfig& setup) {
   auto text = read_text_file(setup.layout, kLargestLayout);
   if (text) return text;
-  return fail(Code::kInvalidArgument, "camera.layout: " + text.error().message, "CONFIG_INVALID");
+  return fail(Code::kInvalidArgument, "camera.layout: " + text.error().message,
+              ErrorReason::CONFIG_INVALID);
 }
 
 Result<CameraConfig> read_camera_setup(const Config& config) {

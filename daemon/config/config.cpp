@@ -176,7 +176,7 @@ bool accept(const Text& kind, const toml::node& node, Config& config) {
 tl::unexpected<Error> refuse(const std::string& name, const toml::source_region& where,
                              const std::string& what) {
   return fail(Code::kInvalidArgument, fmt::format("{}:{}: {}", name, where.begin.line, what),
-              "CONFIG_INVALID");
+              ErrorReason::CONFIG_INVALID);
 }
 
 std::size_t common_prefix(std::string_view a, std::string_view b) {
@@ -315,7 +315,8 @@ bool Endpoint::is_loopback() const {
 
 Result<Endpoint> parse_endpoint(std::string_view text) {
   const auto refused = [&](const std::string& why) {
-    return fail(Code::kInvalidArgument, fmt::format("\"{}\" {}", text, why), "CONFIG_INVALID");
+    return fail(Code::kInvalidArgument, fmt::format("\"{}\" {}", text, why),
+                ErrorReason::CONFIG_INVALID);
   };
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) {

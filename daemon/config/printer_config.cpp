@@ -9,7 +9,7 @@ Result<std::optional<PrinterConfig>> read_printer_setup(const Config& config) {
   auto address = printer::parse_address(config.printer_address);
   if (!address) {
     return fail(Code::kInvalidArgument, "printer.address: " + address.error().message,
-                "CONFIG_INVALID");
+                ErrorReason::CONFIG_INVALID);
   }
   PrinterConfig setup{std::move(*address), {}};
   setup.timing.answer = std::chrono::seconds(config.printer_patience_s);

@@ -22,7 +22,7 @@ Result<std::optional<ControllerConfig>> read_controller_config(const Config& con
                 fmt::format("rig.profile is empty; name the profile of the drive at {}, a file "
                             "like hardware/profiles/virtual.toml",
                             config.rig_drive),
-                "CONFIG_INVALID");
+                ErrorReason::CONFIG_INVALID);
   }
   HP_ASSIGN_OR_RETURN(setup.profile, drive::read_drive_profile(config.rig_profile));
   HP_RETURN_IF_ERROR(rig::check(setup.config, setup.profile));

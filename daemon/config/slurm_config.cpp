@@ -30,7 +30,7 @@ bool is_installation(std::string_view name) {
 }
 
 tl::unexpected<Error> refused(const std::string& words) {
-  return fail(Code::kInvalidArgument, "workers.slurm." + words, "CONFIG_INVALID");
+  return fail(Code::kInvalidArgument, "workers.slurm." + words, ErrorReason::CONFIG_INVALID);
 }
 
 Status check_option(const std::string& option) {

@@ -44,7 +44,7 @@ Status DipExecutor::check_rig(const dip::Plan& plan) const {
     return fail(
         Code::kFailedPrecondition,
         "yes_to_all: only possible with a virtual drive; leave it out and confirm each step",
-        "STATE_FORBIDS");
+        ErrorReason::STATE_FORBIDS);
   }
   const double here_mm = rig.snapshot().position_mm;
   HP_RETURN_IF_ERROR(dip::ways_from(plan, plan.contact_mm.value_or(here_mm), here_mm, rig.config(),
@@ -68,7 +68,7 @@ Result<Job> DipExecutor::create(const JobRequest& request) {
   const std::lock_guard lock(mutex_);
   if (end_)
     return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
-                "SHUTTING_DOWN");
+                ErrorReason::SHUTTING_DOWN);
   HP_ASSIGN_OR_RETURN(auto earlier,
                       dependencies_.jobs.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);
@@ -100,7 +100,7 @@ Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::str
   return tl::unexpected(Error{Code::kFailedPrecondition,
                               fmt::format("{} is {}; it does not wait for a confirmation",
                                           job_name(id), name_of(job.state)),
-                              "STATE_FORBIDS",
+                              ErrorReason::STATE_FORBIDS,
                               {{"state", name_of(job.state)}}});
 }
 

@@ -25,7 +25,7 @@ class Checked {
                                  "simulate again, or set all values taken from it in the dip's "
                                  "spec",
                                  name, least, most),
-                     "STATE_FORBIDS");
+                     ErrorReason::STATE_FORBIDS);
     }
     return 0;
   }

@@ -59,7 +59,8 @@ void add_descent(const Facts& facts, v1::DipReport::Descent& out) {
 
 tl::unexpected<Error> not_written(const std::filesystem::path& path) {
   return fail(Code::kResourceExhausted,
-              path.string() + ": cannot be written; check whether the disk is full", "DISK_FULL");
+              path.string() + ": cannot be written; check whether the disk is full",
+              ErrorReason::DISK_FULL);
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ v1::DipReport report_of(const Facts& facts) {
   out.set_job(facts.job);
   out.set_create_time(facts.create_time);
   out.set_outcome(facts.outcome);
-  out.set_reason(facts.reason);
+  out.set_reason(static_cast<v1::ErrorReason>(facts.reason));
   out.set_message(one_line(facts.message));
   out.set_step(std::string(name(facts.stand.step)));
   out.set_simulate_job(facts.plan.simulate_job);

@@ -37,7 +37,7 @@ struct Facts {
   std::optional<double> deepest_mm;           ///< largest depth reached, below first contact
   std::optional<rig::ConstantSpeed> descent;  ///< speed of the descent below first contact
   std::string outcome;                        ///< "SUCCEEDED"; "RUNNING" while the dip is open
-  std::string reason;                         ///< reason code; only after a failure
+  ErrorReason reason{};                       ///< only after a failure
   std::string message;
 };
 

@@ -120,7 +120,7 @@ Status DipSession::check_confirm(Step step) const {
                               fmt::format("the rig has been homed since {} was made, so first "
                                           "contact is unknown; cancel this dip and calibrate again",
                                           facts_.plan.calibration),
-                              "CALIBRATION_STALE",
+                              ErrorReason::CALIBRATION_STALE,
                               {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
 }
 
@@ -145,7 +145,7 @@ Status DipSession::feed(Event event) {
         Error{Code::kFailedPrecondition,
               fmt::format("{} is in step {} and does not wait for {}; see dip_status of the job",
                           facts_.job, name(stand_.step), name(event.step)),
-              "STATE_FORBIDS",
+              ErrorReason::STATE_FORBIDS,
               {{"step", std::string(name(stand_.step))}}});
   }
   HP_RETURN_IF_ERROR(act(outcome.action, outcome.next));
@@ -411,12 +411,12 @@ bool DipSession::finish() {
   const JobState state = job_state(stand_.ending);
   std::optional<JobFailure> failure;
   if (state == JobState::kFailed) {
-    failure = {failure_.value_or(Error{Code::kInternal, "", "RIG_FAULTED", {}}), {}, {}};
+    failure = {failure_.value_or(Error{Code::kInternal, "", ErrorReason::RIG_FAULTED, {}}), {}, {}};
     failure->error.message = end_words();
   }
   if (!record_) {
     facts_.outcome = name(stand_.ending);
-    facts_.reason = failure ? failure->error.reason : "";
+    facts_.reason = failure ? failure->error.reason : ErrorReason{};
     facts_.message = end_words();
     if (stand_.contact_mm && !descent_.empty()) {
       facts_.descent = dip::immersion_speed(descent_, descent_.front().motion, *stand_.contact_mm);

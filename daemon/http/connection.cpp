@@ -30,19 +30,19 @@ Response refused_head(Exchange::BeginResult begin_result) {
     case Exchange::BeginResult::kHeaderTooLarge:
       return refusal({Code::kOutOfRange,
                       "the header is too long; send fewer or shorter header fields",
-                      "HEADER_TOO_LARGE",
+                      ErrorReason::HEADER_TOO_LARGE,
                       {}},
                      431);
     case Exchange::BeginResult::kTimedOut:
       return refusal({Code::kCancelled,
                       "the request did not arrive in time; send it again",
-                      "REQUEST_TIMED_OUT",
+                      ErrorReason::REQUEST_TIMED_OUT,
                       {}},
                      408);
     default:
       return refusal({Code::kInvalidArgument,
                       "the request line or header is not valid HTTP/1.1; correct the request",
-                      "REQUEST_MALFORMED",
+                      ErrorReason::REQUEST_MALFORMED,
                       {}},
                      400);
   }
@@ -83,7 +83,7 @@ Task<bool> open_connection(Socket& socket, milliseconds timeout) {
     Response response =
         refusal({Code::kInvalidArgument,
                  "this port uses TLS; write https:// instead of http:// in the address",
-                 "REQUEST_MALFORMED",
+                 ErrorReason::REQUEST_MALFORMED,
                  {}});
     const bool is_sent = co_await send_last(socket, std::move(response), kLinger);
     if (is_sent) co_await close_gracefully(socket);
@@ -108,7 +108,7 @@ Task<void> say_full(Socket& socket) {
   if (!is_open) co_return;
   Response response = refusal({Code::kUnavailable,
                                "too many connections are open; try again in a moment",
-                               "CONNECTIONS_FULL",
+                               ErrorReason::CONNECTIONS_FULL,
                                {}});
   response.fields.set("Retry-After", "5");
   const bool is_sent = co_await send_last(socket, std::move(response), kLinger);

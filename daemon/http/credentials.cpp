@@ -36,10 +36,8 @@ Result<auth::Credentials> credentials_in(const Head& head, const std::string& pe
                            std::optional<std::string_view> value) -> Result<std::string> {
     std::string text(value.value_or(""));
     if (unprintable == Unprintable::kRefuse && !is_printable(text)) {
-      auto error = fail(Code::kInvalidArgument, std::string(name) + ": must be printable ASCII",
-                        "SPEC_INVALID");
-      error.value().metadata["field"] = name;
-      return error;
+      return fail_field(Code::kInvalidArgument, name, "must be printable ASCII",
+                        ErrorReason::SPEC_INVALID);
     }
     std::replace_if(
         text.begin(), text.end(), [](char c) { return !is_printable(c); }, '?');

@@ -50,7 +50,7 @@ DownloadPlan plan_download(const Head& head, const v1::Artifact& artifact, bool 
     out.response = refusal(
         {Code::kOutOfRange,
          fmt::format("the artifact has {} bytes; the requested range contains none of them", size),
-         "RANGE_UNSATISFIABLE",
+         ErrorReason::RANGE_UNSATISFIABLE,
          {}},
         416);
     out.response.fields.set("Content-Range", fmt::format("bytes */{}", size));
@@ -128,9 +128,11 @@ class Download {
 // Returns the response to methods other than GET and HEAD. A browser must not mistake it for the
 // file.
 Response only_get() {
-  Response response = refusal(
-      {Code::kUnimplemented, "artifacts are read-only; use GET or HEAD", "METHOD_NOT_ALLOWED", {}},
-      405);
+  Response response = refusal({Code::kUnimplemented,
+                               "artifacts are read-only; use GET or HEAD",
+                               ErrorReason::METHOD_NOT_ALLOWED,
+                               {}},
+                              405);
   response.fields.set("Allow", "GET, HEAD, OPTIONS");
   return response;
 }
@@ -149,7 +151,7 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
     Error error{
         Code::kInvalidArgument,
         "the path or query of this download is not valid; the only allowed query is inline=1",
-        "PARAMETER_INVALID",
+        ErrorReason::PARAMETER_INVALID,
         {}};
     if (!metadata) error = metadata.error();
     co_await refuse(exchange, std::move(error));

@@ -71,7 +71,7 @@ Error unknown_host(const Head& head) {
       fmt::format("unknown host name ({}); use a name of the server's certificate (or 127.0.0.1 "
                   "on the server itself), or add this name to server.host_names. {}",
                   shown(head, "Host"), kProxyRemedy),
-      "HOST_UNKNOWN",
+      ErrorReason::HOST_UNKNOWN,
       {}};
 }
 
@@ -81,7 +81,7 @@ Error foreign_origin(const Head& head) {
           fmt::format("the request comes from a page of another site ({}; {}); only this server's "
                       "own pages may send it. {}",
                       shown(head, page), shown(head, "Host"), kProxyRemedy),
-          "ORIGIN_FORBIDDEN",
+          ErrorReason::ORIGIN_FORBIDDEN,
           {}};
 }
 
@@ -93,7 +93,7 @@ std::optional<Response> refused_framing(const ServerContext& server, const Head&
   return refusal({is_unknown ? Code::kUnimplemented : Code::kInvalidArgument,
                   "Transfer-Encoding is allowed only as \"chunked\", in HTTP/1.1 and without "
                   "Content-Length; otherwise send only Content-Length",
-                  "REQUEST_MALFORMED",
+                  ErrorReason::REQUEST_MALFORMED,
                   {}},
                  is_unknown ? 501 : 400);
 }
@@ -104,7 +104,7 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
   if (hosts > 1 || (hosts == 0 && head.version >= 11)) {
     return refusal({Code::kInvalidArgument,
                     "the header Host must occur exactly once",
-                    "REQUEST_MALFORMED",
+                    ErrorReason::REQUEST_MALFORMED,
                     {}});
   }
   if (hosts == 1 && !is_ours(server.options, *head.fields.find("Host"))) {
@@ -125,9 +125,11 @@ Task<bool> is_refused_method(Exchange& exchange) {
   Response response;
   response.status = 204;
   if (method != "OPTIONS") {
-    response = refusal(
-        {Code::kUnimplemented, "only GET and HEAD are allowed here", "METHOD_NOT_ALLOWED", {}},
-        405);
+    response = refusal({Code::kUnimplemented,
+                        "only GET and HEAD are allowed here",
+                        ErrorReason::METHOD_NOT_ALLOWED,
+                        {}},
+                       405);
   }
   response.fields.set("Allow", "GET, HEAD, OPTIONS");
   co_await exchange.send(std::move(response));

@@ -51,7 +51,7 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   if (allowed.empty()) {
     response = refusal({Code::kNotFound,
                         "no endpoint exists at this path; see /openapi.json",
-                        "ROUTE_NOT_FOUND",
+                        ErrorReason::ROUTE_NOT_FOUND,
                         {}});
   } else {
     response.fields.set("Allow", allowed);
@@ -105,7 +105,7 @@ Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchang
 // Answers a request that the transcoder rejected.
 Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, Error error) {
   Response response = refusal(error);
-  if (error.reason == "METHOD_NOT_ALLOWED") {
+  if (error.reason == ErrorReason::METHOD_NOT_ALLOWED) {
     response = refusal(error, 405);
     response.fields.set("Allow", allowed_at(server, exchange.head().target));
   }
@@ -147,8 +147,8 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
   }
   Result<std::string> body = co_await body_of(server, exchange);
   if (!body) {
-    const bool is_too_long = body.error().reason == "BODY_TOO_LARGE";
-    const bool is_late = body.error().reason == "REQUEST_TIMED_OUT";
+    const bool is_too_long = body.error().reason == ErrorReason::BODY_TOO_LARGE;
+    const bool is_late = body.error().reason == ErrorReason::REQUEST_TIMED_OUT;
     const std::optional<int> status = is_too_long ? std::optional(413)
                                       : is_late   ? std::optional(408)
                                                   : std::nullopt;
@@ -158,7 +158,7 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
   Result<rest::Call> request = server.transcoder.read(http_method, head.target, *body);
   if (request && request->streams && wants_head) {
     request = fail(Code::kUnimplemented, "HEAD is not supported for streams; use GET",
-                   "METHOD_NOT_ALLOWED");
+                   ErrorReason::METHOD_NOT_ALLOWED);
   }
   const auto last_event = head.fields.find("Last-Event-ID");
   if (request && request->streams && last_event) {

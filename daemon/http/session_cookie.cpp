@@ -33,7 +33,7 @@ Status check_csrf(const Head& head) {
               fmt::format("requests that make changes with a session require the header {}; reload "
                           "the page, or use the value that /v1/session returns",
                           kCsrfHeader),
-              "CSRF_TOKEN_MISSING");
+              ErrorReason::CSRF_TOKEN_MISSING);
 }
 
 std::optional<std::string> take_session(const std::string& method, std::string& response,

@@ -99,7 +99,7 @@ Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
                   folder.string() +
                       ": too large for a web client (64 MiB, 10000 files); name "
                       "another folder in server.web_dir",
-                  "CONFIG_INVALID");
+                  ErrorReason::CONFIG_INVALID);
     }
     const std::string coding = path.extension();
     if (coding == ".br" || coding == ".gz") path.replace_extension();

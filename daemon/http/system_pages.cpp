@@ -54,7 +54,8 @@ Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange) {
 Task<std::string> answer_file(ServerContext& server, Exchange& exchange) {
   Response response = server.files.answer(exchange.head());
   if (response.status == 404) {
-    response = refusal({Code::kNotFound, "no file exists at this path", "ROUTE_NOT_FOUND", {}});
+    response =
+        refusal({Code::kNotFound, "no file exists at this path", ErrorReason::ROUTE_NOT_FOUND, {}});
   }
   co_await exchange.send(std::move(response));
   co_return "file";

@@ -94,7 +94,7 @@ Task<void> answer_bytes(ServerContext& server, Exchange& exchange, std::string n
   Passing passing(server, exchange, std::move(name), *offset, metadata);
   const Result<Reply> reply = co_await passing.run();
   if (!reply) {
-    const bool is_late = reply.error().reason == "REQUEST_TIMED_OUT";
+    const bool is_late = reply.error().reason == ErrorReason::REQUEST_TIMED_OUT;
     std::optional<int> status;
     if (is_late) status = 408;
     co_await refuse(exchange, reply.error(), status);

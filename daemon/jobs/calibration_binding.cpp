@@ -22,7 +22,7 @@ tl::unexpected<Error> missing(const std::string& name, const std::string& field)
   return tl::unexpected(Error{
       Code::kFailedPrecondition,
       fmt::format("{}: {} does not exist; calibrate, or name another calibration", field, name),
-      "CALIBRATION_MISSING",
+      ErrorReason::CALIBRATION_MISSING,
       {{"calibration", name}}});
 }
 
@@ -90,13 +90,14 @@ Result<Calibration> find_calibration(const std::string& name, CalibrationStore& 
   if (found) return std::move(*found);
   return fail(Code::kNotFound,
               "no calibration of an object is active; calibrate, or enter a calibration by hand",
-              "CALIBRATION_NOT_FOUND");
+              ErrorReason::CALIBRATION_NOT_FOUND);
 }
 
 Result<Calibration> needed_calibration(const std::string& name, const std::string& field,
                                        CalibrationStore& calibrations) {
   auto found = find_calibration(name, calibrations);
-  if (!found && found.error().reason == "CALIBRATION_NOT_FOUND") return missing(name, field);
+  if (!found && found.error().reason == ErrorReason::CALIBRATION_NOT_FOUND)
+    return missing(name, field);
   if (found && found->definition.kind != CalibrationKind::kObject) {
     return invalid_field(field,
                          "names the calibration of a camera; name the calibration of an object");
@@ -130,7 +131,7 @@ Status check_objection(const v1::Calibration& calibration, const Objection& obje
       Code::kFailedPrecondition,
       fmt::format("{} is no longer valid: {}; calibrate again, or set allow_stale_calibration",
                   calibration.name(), objection.words),
-      "CALIBRATION_STALE",
+      ErrorReason::CALIBRATION_STALE,
       {{"calibration", calibration.name()}, {"why", objection.names}}});
 }
 

@@ -48,7 +48,7 @@ class Checked {
                    fmt::format("the worker's calibration has no usable {}; check that "
                                "workers.program is hydroprint-worker",
                                name),
-                   "WORKER_UNUSABLE");
+                   ErrorReason::WORKER_UNUSABLE);
   }
   [[nodiscard]] const Status& status() const { return status_; }
 

@@ -43,7 +43,7 @@ Result<std::string> json_of(const Message& spec) {
   return fail(Code::kInvalidArgument,
               fmt::format("{}: cannot be written as JSON: {}", spec.GetTypeName(),
                           std::string(status.message())),
-              "SPEC_INVALID");
+              ErrorReason::SPEC_INVALID);
 }
 
 Result<NewJob> new_job(const JobKind& kind, const v1::Job& job, const Message& shown,

@@ -15,7 +15,7 @@ namespace hydroprint::daemon {
 
 /// Checks a job whose spec has no references. Sets all of NewJob except owner, body, digest,
 /// retry_of and dip_status.
-/// @return kInvalidArgument: SPEC_INVALID (metadata field), NAME_INVALID, ID_INVALID
+/// @return kInvalidArgument: SPEC_INVALID (with the field), NAME_INVALID, ID_INVALID
 [[nodiscard]] Result<NewJob> check_job(const v1::Job& job);
 
 }  // namespace hydroprint::daemon

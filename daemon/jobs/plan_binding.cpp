@@ -93,7 +93,7 @@ Status adopt_plan(v1::SimulateSpec& spec, const JobSources& sources) {
     if (!artifact) {
       return fail(Code::kFailedPrecondition,
                   fmt::format("{} has no {}; retry that job", spec.plan_job(), name),
-                  "STATE_FORBIDS");
+                  ErrorReason::STATE_FORBIDS);
     }
     HP_ASSIGN_OR_RETURN(*spec.add_plan(),
                         adopt_artifact(id, *artifact, std::string("plan/") + name, sources));

@@ -37,7 +37,7 @@ Status add_film(const v1::Job& job, const JobSources& sources, PlanFacts& facts)
   if (!name.empty() && !facts.calibrations.contains(name)) {
     const auto found = find_calibration(name, sources.calibrations);
     if (found) facts.calibrations[name] = to_message(*found, sources.place);
-    if (!found && found.error().reason != "CALIBRATION_NOT_FOUND")
+    if (!found && found.error().reason != ErrorReason::CALIBRATION_NOT_FOUND)
       return tl::unexpected(found.error());
   }
   if (job.state() != v1::Job::SUCCEEDED) return {};

@@ -20,7 +20,7 @@ Result<Job> earlier_job(const std::string& name, const std::string& kind, const 
   return tl::unexpected(
       Error{Code::kFailedPrecondition,
             fmt::format("{} is {}; name a job that SUCCEEDED", name, name_of(job.state)),
-            "STATE_FORBIDS",
+            ErrorReason::STATE_FORBIDS,
             {{"state", name_of(job.state)}}});
 }
 
@@ -30,7 +30,7 @@ Result<EarlierSimulation> earlier_simulation(const std::string& name, const std:
   HP_ASSIGN_OR_RETURN(out.job, earlier_job(name, "simulate", field, jobs));
   v1::Job body;
   if (!body.ParseFromString(out.job.definition.body) || !body.has_simulate()) {
-    return fail(Code::kInternal, name + ": its spec cannot be read", "STORE_FAILED");
+    return fail(Code::kInternal, name + ": its spec cannot be read", ErrorReason::STORE_FAILED);
   }
   out.spec = body.simulate();
   return out;
@@ -41,7 +41,7 @@ Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& fi
   HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "plan", field, jobs));
   v1::Job body;
   if (!body.ParseFromString(job.definition.body) || !body.has_plan()) {
-    return fail(Code::kInternal, name + ": its spec cannot be read", "STORE_FAILED");
+    return fail(Code::kInternal, name + ": its spec cannot be read", ErrorReason::STORE_FAILED);
   }
   return body.plan();
 }
@@ -52,7 +52,7 @@ Result<v1::JobReport> report_of(const Job& job, const Layout& layout) {
   return fail(Code::kFailedPrecondition,
               fmt::format("{} has no usable report ({}); retry that job", job_name(job.id),
                           report.error().message),
-              "STATE_FORBIDS");
+              ErrorReason::STATE_FORBIDS);
 }
 
 std::vector<v1::Warning> plan_warnings(const v1::SimulateReport& report) {

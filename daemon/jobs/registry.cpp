@@ -48,7 +48,7 @@ Result<const JobKind*> kind_of(const Job& job) {
       fmt::format(
           "{}: unknown job kind \"{}\"; use the version of hydroprintd that stored this job",
           job_name(job.id), name),
-      "STORE_FAILED");
+      ErrorReason::STORE_FAILED);
 }
 
 }  // namespace hydroprint::daemon

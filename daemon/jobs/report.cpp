@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kLargestReport = 4 << 20;
 
 tl::unexpected<Error> damaged(const std::string& why) {
-  return fail(Code::kDataLoss, why, "ARTIFACT_DAMAGED");
+  return fail(Code::kDataLoss, why, ErrorReason::ARTIFACT_DAMAGED);
 }
 
 }  // namespace
@@ -31,8 +31,8 @@ Result<v1::JobReport> read_report(const std::filesystem::path& artifacts, const 
   const Status read =
       rest::read_json(*text, *out.GetReflection()->MutableMessage(&out, field), file);
   if (read) return out;
-  const bool is_field = read.error().metadata.contains("field");
-  return damaged((is_field ? file + ": " : "") + read.error().message);
+  const bool is_field = !read.error().field.empty();
+  return damaged((is_field ? file + ": " : "") + full_message(read.error()));
 }
 
 }  // namespace hydroprint::daemon

@@ -88,7 +88,7 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
         Code::kInvalidArgument,
         fmt::format("{}: the name \"{}\" is used for two files; use a different name for each file",
                     path, name),
-        "NAME_INVALID");
+        ErrorReason::NAME_INVALID);
   }
   return out;
 }

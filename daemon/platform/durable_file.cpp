@@ -32,12 +32,12 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::str
   const std::string text = fmt::format("{}: {}: ", path.string(), what);
   if (error == ENOSPC || error == EDQUOT) {
     return fail(Code::kResourceExhausted, text + "the disk is full; free disk space and try again",
-                "DISK_FULL");
+                ErrorReason::DISK_FULL);
   }
   return fail(Code::kInternal,
               fmt::format("{}{}; check the permissions, the disk and the resource limits", text,
                           std::generic_category().message(error)),
-              "STORE_FAILED");
+              ErrorReason::STORE_FAILED);
 }
 
 Result<UniqueFd> open_file(const std::filesystem::path& path, int flags, unsigned mode) {
@@ -108,7 +108,8 @@ Status copy_bytes(const UniqueFd& from, std::int64_t bytes, const std::filesyste
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return system_failure(to, "cannot be copied");
     if (count == 0) {
-      return fail(Code::kInternal, to.string() + ": the original became shorter", "STORE_FAILED");
+      return fail(Code::kInternal, to.string() + ": the original became shorter",
+                  ErrorReason::STORE_FAILED);
     }
     const std::string_view piece(block.data(), static_cast<std::size_t>(count));
     HP_RETURN_IF_ERROR(write_at(target, to, piece, done));
@@ -149,7 +150,7 @@ Status check_free_space(const std::filesystem::path& path, std::int64_t bytes) {
               fmt::format("the daemon's disk is nearly full ({} MiB free, {} MiB needed); delete "
                           "jobs or assets, or free disk space",
                           free >> 20, bytes >> 20),
-              "DISK_FULL");
+              ErrorReason::DISK_FULL);
 }
 
 }  // namespace hydroprint::daemon

@@ -21,7 +21,7 @@ std::string shown(std::string_view text) {
 
 tl::unexpected<Error> bad_id(std::string_view name, const std::string& pattern) {
   return fail(Code::kInvalidArgument, fmt::format("{} is not of the form {}", shown(name), pattern),
-              "ID_INVALID");
+              ErrorReason::ID_INVALID);
 }
 
 bool is_plain_part(std::string_view part) {
@@ -33,9 +33,8 @@ bool is_plain_part(std::string_view part) {
 }  // namespace
 
 tl::unexpected<Error> invalid_field(std::string_view field, std::string_view problem) {
-  auto error = fail(Code::kInvalidArgument, fmt::format("{}: {}", field, problem), "SPEC_INVALID");
-  error.value().metadata["field"] = field;
-  return error;
+  return fail_field(Code::kInvalidArgument, std::string(field), std::string(problem),
+                    ErrorReason::SPEC_INVALID);
 }
 
 Status check_text(std::string_view field, std::string_view text, std::size_t max_bytes) {
@@ -56,14 +55,11 @@ Status check_file_name(std::string_view field, std::string_view name) {
     begin = end + 1;
   }
   if (plain) return {};
-  auto error =
-      fail(Code::kInvalidArgument,
-           fmt::format(
-               "{}: {} is not a plain file name; use one like \"spot.obj\" or \"textures/a.png\"",
-               field, shown(name)),
-           "NAME_INVALID");
-  error.value().metadata["field"] = field;
-  return error;
+  return fail_field(
+      Code::kInvalidArgument, std::string(field),
+      fmt::format("{} is not a plain file name; use one like \"spot.obj\" or \"textures/a.png\"",
+                  shown(name)),
+      ErrorReason::NAME_INVALID);
 }
 
 bool is_sha256(std::string_view text) {

@@ -9,7 +9,7 @@
 
 namespace hydroprint::daemon {
 
-/// Returns the error kInvalidArgument, SPEC_INVALID: "FIELD: PROBLEM", with metadata `field`.
+/// Returns the error kInvalidArgument, SPEC_INVALID, about a field.
 [[nodiscard]] tl::unexpected<Error> invalid_field(std::string_view field, std::string_view problem);
 
 /// Returns SPEC_INVALID for text longer than `max_bytes` or with control characters.

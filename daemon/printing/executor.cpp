@@ -15,7 +15,7 @@ Status PrintExecutor::check_printer() const {
   return fail(Code::kFailedPrecondition,
               "no printer is configured; set printer.address in the daemon's configuration, or "
               "download print.pdf and print it elsewhere",
-              "PRINTER_MISSING");
+              ErrorReason::PRINTER_MISSING);
 }
 
 Result<Job> PrintExecutor::check(const JobRequest& request) {
@@ -31,7 +31,7 @@ Result<Job> PrintExecutor::create(const JobRequest& request) {
   const std::lock_guard lock(mutex_);
   if (end_)
     return fail(Code::kAborted, "the daemon is shutting down; try again after it has restarted",
-                "SHUTTING_DOWN");
+                ErrorReason::SHUTTING_DOWN);
   HP_RETURN_IF_ERROR(check_printer());
   HP_ASSIGN_OR_RETURN(auto earlier, jobs_.repeated(request.definition.owner, request.key));
   if (earlier) return std::move(*earlier);

@@ -25,7 +25,7 @@ Status read_printed_pages(const v1::PrintImageReport& report, PrintPlan& plan) {
     return fail(
         Code::kFailedPrecondition,
         plan.print_image_job + ": its report does not describe the pages; run print-image again",
-        "STATE_FORBIDS");
+        ErrorReason::STATE_FORBIDS);
   }
   plan.pages = report.sheets_size();
   plan.margin_mm = report.page().printer_margin_mm();
@@ -40,7 +40,7 @@ Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs, const
   if (!pdf) {
     return fail(Code::kFailedPrecondition,
                 job_name(job.id) + " has no PDF; run print-image with the format pdf",
-                "STATE_FORBIDS");
+                ErrorReason::STATE_FORBIDS);
   }
   PrintPlan plan;
   plan.print_image_job = job_name(job.id);

@@ -41,7 +41,7 @@ v1::PrintReport report_of(const PrintFacts& facts) {
   out.set_job(facts.job);
   out.set_create_time(facts.create_time);
   out.set_outcome(facts.outcome);
-  out.set_reason(facts.reason);
+  out.set_reason(static_cast<v1::ErrorReason>(facts.reason));
   out.set_message(one_line(facts.message));
   out.set_print_image_job(plan.print_image_job);
   out.set_sha256(plan.sha256);
@@ -97,14 +97,14 @@ Status check_takes_pdf(const printer::Attributes& printer, const std::string& ad
                 fmt::format("printer {}: does not accept PDF (only {}). Download print.pdf and "
                             "print it from a machine with a driver for it",
                             address, fmt::join(formats, ", ")),
-                "FORMAT_NOT_SUPPORTED");
+                ErrorReason::FORMAT_NOT_SUPPORTED);
   }
   if (!printer.accepts_jobs) {
     const auto& why = printer.state_reasons;
     return fail(Code::kFailedPrecondition,
                 fmt::format("printer {}: does not accept jobs{}. Check its display", address,
                             why.empty() ? "" : fmt::format(" ({})", fmt::join(why, ", "))),
-                "PRINTER_REFUSED");
+                ErrorReason::PRINTER_REFUSED);
   }
   return {};
 }

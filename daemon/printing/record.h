@@ -25,8 +25,8 @@ struct PrintFacts {
   printer::Attributes printer;
   std::vector<PrinterNews> news;
   Warnings warnings;
-  std::string outcome;  ///< "SUCCEEDED"
-  std::string reason;   ///< reason code; only after a failure
+  std::string outcome;   ///< "SUCCEEDED"
+  ErrorReason reason{};  ///< only after a failure
   std::string message;
 };
 

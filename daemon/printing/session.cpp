@@ -107,7 +107,8 @@ void PrintSession::publish(std::string_view phase, double fraction, const std::s
 JobState PrintSession::ending(const Status& done) const {
   if (done) return JobState::kSucceeded;
   const Error& error = done.error();
-  const bool is_cancel = error.code == Code::kCancelled || error.reason == "PRINT_CANCELED";
+  const bool is_cancel =
+      error.code == Code::kCancelled || error.reason == ErrorReason::PRINT_CANCELED;
   return cancelled_ && is_cancel ? JobState::kCancelled : JobState::kFailed;
 }
 
@@ -116,7 +117,7 @@ void PrintSession::finish(const Status& done) {
   std::optional<JobFailure> failure;
   if (state == JobState::kFailed) failure = {done.error(), {}, {}};
   facts_.outcome = name_of(state);
-  facts_.reason = failure ? failure->error.reason : "";
+  facts_.reason = failure ? failure->error.reason : ErrorReason{};
   facts_.message = done ? "printed" : done.error().message;
   const auto record = publish_record();
   for (;;) {

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 bool is_method_not_allowed(const google::rpc::Status& status) {
   google::rpc::ErrorInfo info;
   return status.details_size() > 0 && status.details(0).UnpackTo(&info) &&
-         info.reason() == "METHOD_NOT_ALLOWED";
+         info.reason() == name_of(ErrorReason::METHOD_NOT_ALLOWED);
 }
 
 Json details_of(const google::rpc::Status& status) {
@@ -78,7 +78,7 @@ Answer error_answer(int grpc_code, const std::string& message, const std::string
 }
 
 Answer error_answer(const Error& error) {
-  return error_answer(number_of(error.code), error.message, status_details(error));
+  return error_answer(number_of(error.code), full_message(error), status_details(error));
 }
 
 }  // namespace hydroprint::rest

@@ -18,10 +18,10 @@ bool is_violation(const std::string& key) { return key.starts_with(kPrefix); }
 
 Error bad_request(const std::vector<rules::Violation>& violations) {
   const rules::Violation& first = violations.front();
-  Error error{Code::kInvalidArgument, "", first.reason, {{"field", first.field}}};
+  Error error{Code::kInvalidArgument, "", first.reason, {}, first.field};
   for (std::size_t i = 0; i < std::min(violations.size(), kMostViolations); ++i) {
     const rules::Violation& violation = violations[i];
-    error.message += (i == 0 ? "" : "; ") + violation.field + std::string(": ") + violation.problem;
+    error.message += i == 0 ? violation.problem : "; " + violation.field + ": " + violation.problem;
     error.metadata[std::string(kPrefix) + static_cast<char>('a' + i) + violation.field] =
         violation.problem;
   }
@@ -34,17 +34,14 @@ std::vector<rules::Violation> violations_of(const Error& error) {
     if (!is_violation(key)) continue;
     violations.push_back({key.substr(kPrefix.size() + 1), problem, error.reason});
   }
-  const auto field = error.metadata.find("field");
-  if (!violations.empty() || field == error.metadata.end()) return violations;
-  const std::string before = field->second + ": ";
-  const bool is_named = error.message.starts_with(before);
-  return {{field->second, is_named ? error.message.substr(before.size()) : error.message,
-           error.reason}};
+  if (!violations.empty() || error.field.empty()) return violations;
+  return {{error.field, error.message, error.reason}};
 }
 
 std::map<std::string, std::string> shown_metadata(const Error& error) {
   std::map<std::string, std::string> shown = error.metadata;
   std::erase_if(shown, [](const auto& entry) { return is_violation(entry.first); });
+  if (!error.field.empty()) shown["field"] = error.field;
   return shown;
 }
 

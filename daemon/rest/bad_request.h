@@ -8,7 +8,7 @@
 namespace hydroprint::rest {
 
 /// Creates the error for a request with wrong fields. It carries all violations (at most 16), which
-/// responses contain as google.rpc.BadRequest. Reason and metadata `field` are those of the first
+/// responses contain as google.rpc.BadRequest. Reason and field are those of the first
 /// violation.
 /// @param violations  at least one
 [[nodiscard]] Error bad_request(const std::vector<rules::Violation>& violations);

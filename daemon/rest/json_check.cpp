@@ -127,7 +127,7 @@ class Checker : public nlohmann::json_sax<json> {
     return {Code::kInvalidArgument,
             fmt::format("{}, line {}, column {}: not valid JSON: {}", subject_, line, column,
                         plain(what)),
-            "JSON_INVALID",
+            ErrorReason::JSON_INVALID,
             {}};
   }
 
@@ -146,9 +146,8 @@ class Checker : public nlohmann::json_sax<json> {
   }
 
   bool refuse(const std::string& what) {
-    const std::string field = place();
-    error_.message = (field.empty() ? subject_ : field) + ": " + what;
-    if (!field.empty()) error_.metadata["field"] = field;
+    error_.field = place();
+    error_.message = error_.field.empty() ? subject_ + ": " + what : what;
     return false;
   }
 
@@ -204,7 +203,7 @@ class Checker : public nlohmann::json_sax<json> {
   const pb::Descriptor& root_;
   std::string subject_;
   std::vector<Level> levels_;
-  Error error_{Code::kInvalidArgument, {}, "JSON_INVALID", {}};
+  Error error_{Code::kInvalidArgument, {}, ErrorReason::JSON_INVALID, {}};
 };
 
 }  // namespace

@@ -18,9 +18,7 @@ namespace pb = google::protobuf;
 using Type = pb::FieldDescriptor::CppType;
 
 tl::unexpected<Error> refuse_value(const std::string& place, const std::string& what) {
-  auto error = fail(Code::kInvalidArgument, place + ": " + what, "JSON_INVALID");
-  error.value().metadata["field"] = place;
-  return error;
+  return fail_field(Code::kInvalidArgument, place, what, ErrorReason::JSON_INVALID);
 }
 
 // Checks one value of a field. `index` is the position in a repeated field, otherwise -1.
@@ -85,7 +83,8 @@ Status read_json(std::string_view text, pb::Message& message, std::string_view w
   const auto status = pb::util::JsonStringToMessage(whole, &message);
   if (!status.ok()) {
     const std::string words = status.message().ToString();
-    return fail(Code::kInvalidArgument, fmt::format("{}: {}", what, plain(words)), "JSON_INVALID");
+    return fail(Code::kInvalidArgument, fmt::format("{}: {}", what, plain(words)),
+                ErrorReason::JSON_INVALID);
   }
   return check_values(message);
 }

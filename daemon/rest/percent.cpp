@@ -10,7 +10,7 @@ namespace {
 
 tl::unexpected<Error> refuse(std::string_view text, std::size_t at, const std::string& what) {
   return fail(Code::kInvalidArgument, fmt::format("\"{}\", byte {}: {}", plain(text), at, what),
-              "URL_INVALID");
+              ErrorReason::URL_INVALID);
 }
 
 int hex_digit(char c) {

@@ -11,24 +11,25 @@ namespace hydroprint::rest {
 namespace {
 
 // Returns the reason to report for errors that state none.
-const char* default_reason(Code code) {
+ErrorReason default_reason(Code code) {
   switch (code) {
     case Code::kCancelled:
-      return "CANCELLED";
+      return ErrorReason::CANCELLED;
     case Code::kInvalidArgument:
-      return "SPEC_INVALID";
+      return ErrorReason::SPEC_INVALID;
     case Code::kResourceExhausted:
-      return "DISK_FULL";
+      return ErrorReason::DISK_FULL;
     case Code::kFailedPrecondition:
-      return "STATE_FORBIDS";
+      return ErrorReason::STATE_FORBIDS;
     default:
-      return "STORE_FAILED";
+      return ErrorReason::STORE_FAILED;
   }
 }
 
 // Returns the time after which to retry, s; 0 if a retry does not help.
 int retry_after_s(const Error& error) {
-  for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
+  for (const ErrorReason full :
+       {ErrorReason::QUEUE_FULL, ErrorReason::UPLOADS_FULL, ErrorReason::PREVIEWS_FULL}) {
     if (error.reason == full) return 10;
   }
   const auto retry_s = error.metadata.find("retry_s");
@@ -74,10 +75,11 @@ int number_of(Code code) {
 std::string status_details(const Error& error) {
   google::rpc::Status details;
   details.set_code(number_of(error.code));
-  details.set_message(error.message);
+  details.set_message(full_message(error));
   google::rpc::ErrorInfo info;
   info.set_domain("hydroprint");
-  info.set_reason(error.reason.empty() ? default_reason(error.code) : error.reason);
+  const bool has_reason = error.reason != ErrorReason{};
+  info.set_reason(std::string(name_of(has_reason ? error.reason : default_reason(error.code))));
   const auto metadata = shown_metadata(error);
   info.mutable_metadata()->insert(metadata.begin(), metadata.end());
   details.add_details()->PackFrom(info);

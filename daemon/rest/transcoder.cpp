@@ -61,7 +61,8 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
     std::erase_if(rest, [](char c) { return is_blank({&c, 1}); });
     if (rest == "{}") return {};
     return fail(Code::kInvalidArgument,
-                "request body: must be empty; put the parameters in the query", "JSON_INVALID");
+                "request body: must be empty; put the parameters in the query",
+                ErrorReason::JSON_INVALID);
   }
   if (route.body == Body::kField) {
     return read_json(body, *request.GetReflection()->MutableMessage(&request, route.body_field));
@@ -69,11 +70,8 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
   HP_RETURN_IF_ERROR(read_json(body, request));
   for (const FieldPath& path : route.path_fields) {
     if (!has_value(request, path)) continue;
-    auto error =
-        fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path; leave it out",
-             "JSON_INVALID");
-    error.value().metadata["field"] = path_text(path);
-    return error;
+    return fail_field(Code::kInvalidArgument, path_text(path),
+                      "is already set by the path; leave it out", ErrorReason::JSON_INVALID);
   }
   return {};
 }
@@ -90,13 +88,13 @@ tl::unexpected<Error> no_route(std::string_view http_method, std::string_view pa
                                const std::vector<Match>& matches) {
   if (matches.empty()) {
     return fail(Code::kNotFound, plain(path) + ": not found; see /openapi.json for all paths",
-                "ROUTE_NOT_FOUND");
+                ErrorReason::ROUTE_NOT_FOUND);
   }
   const std::string allowed = fmt::format("{}", fmt::join(methods_of(matches), ", "));
   auto error =
       fail(Code::kUnimplemented,
            fmt::format("{}: {} is not allowed; use {}", plain(path), plain(http_method), allowed),
-           "METHOD_NOT_ALLOWED");
+           ErrorReason::METHOD_NOT_ALLOWED);
   error.value().metadata["allow"] = allowed;
   return error;
 }

@@ -128,9 +128,7 @@ const pb::FieldDescriptor* rival(const pb::Message& message, const pb::FieldDesc
 }  // namespace
 
 tl::unexpected<Error> bad_parameter(const std::string& field, const std::string& what) {
-  auto error = fail(Code::kInvalidArgument, field + ": " + what, "PARAMETER_INVALID");
-  error.value().metadata["field"] = field;
-  return error;
+  return fail_field(Code::kInvalidArgument, field, what, ErrorReason::PARAMETER_INVALID);
 }
 
 Status set_from_text(pb::Message& message, const FieldPath& path, const std::string& text) {

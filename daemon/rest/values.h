@@ -14,7 +14,7 @@ namespace hydroprint::rest {
 /// Sets a field, or appends to a repeated one, from text in a path or a query. Numbers are decimal,
 /// bools "true" or "false", enums by name or number, bytes base64; Timestamp, Duration and
 /// FieldMask are as in JSON, without the quotes. `text` is UTF-8 without NUL.
-/// Returns kInvalidArgument, PARAMETER_INVALID (metadata `field`) for:
+/// Returns kInvalidArgument, PARAMETER_INVALID, with the field, for:
 /// - text that is not a valid, finite value in range;
 /// - a map, or a message that JSON writes as an object;
 /// - a second member of a oneof.

@@ -23,7 +23,7 @@ tl::unexpected<Error> is_held(const Lease& lease) {
       fmt::format(
           "{} holds the rig's lease until {} ({}); ask them to release it, or break the lease",
           lease.holder, time_text(lease.expire_ms), lease.purpose),
-      "LEASE_HELD",
+      ErrorReason::LEASE_HELD,
       {}};
   describe(lease, error);
   return tl::unexpected(std::move(error));
@@ -32,7 +32,7 @@ tl::unexpected<Error> is_held(const Lease& lease) {
 tl::unexpected<Error> is_required(const std::optional<Lease>& held) {
   Error error{Code::kFailedPrecondition,
               "commands to the rig require its lease; acquire the lease first",
-              "LEASE_REQUIRED",
+              ErrorReason::LEASE_REQUIRED,
               {}};
   if (held) {
     error.message += fmt::format("; currently {} holds the lease until {} ({})", held->holder,

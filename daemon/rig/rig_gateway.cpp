@@ -29,7 +29,7 @@ tl::unexpected<Error> no_rig() {
       Error{Code::kFailedPrecondition,
             "no rig is configured; set rig.drive and rig.profile, or start hydroprintd with --rig "
             "and --rig-profile",
-            "RIG_OFFLINE",
+            ErrorReason::RIG_OFFLINE,
             {{"state", "OFFLINE"}}});
 }
 
@@ -42,7 +42,7 @@ Status RigGateway::check_free() const {
       fmt::format(
           "the dip {} has exclusive use of the rig until it ends; stop the rig or cancel the dip",
           name),
-      "STATE_FORBIDS",
+      ErrorReason::STATE_FORBIDS,
       {{"dip", name}}});
 }
 

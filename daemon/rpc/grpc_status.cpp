@@ -3,7 +3,7 @@
 namespace hydroprint::daemon {
 
 grpc::Status to_grpc(const Error& error) {
-  return {static_cast<grpc::StatusCode>(number_of(error.code)), error.message,
+  return {static_cast<grpc::StatusCode>(number_of(error.code)), full_message(error),
           rest::status_details(error)};
 }
 

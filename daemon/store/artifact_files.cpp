@@ -20,7 +20,7 @@ tl::unexpected<Error> unusable(const std::string& what) {
   return fail(
       Code::kInternal,
       "the worker's output contains " + what + "; check that workers.program is hydroprint-worker",
-      "WORKER_UNUSABLE");
+      ErrorReason::WORKER_UNUSABLE);
 }
 
 // Copies a regular file that has one name, up to its present size.
@@ -79,7 +79,7 @@ Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs
     if (!std::filesystem::exists(asset)) {
       return fail(Code::kFailedPrecondition,
                   input.name + ": assets/" + input.sha256 + " is missing; upload the file again",
-                  "ASSET_MISSING");
+                  ErrorReason::ASSET_MISSING);
     }
     HP_RETURN_IF_ERROR(make_folder((folder / input.name).parent_path()));
     HP_RETURN_IF_ERROR(link_or_copy(asset, folder / input.name, stop));

@@ -8,7 +8,7 @@ tl::unexpected<Error> asset_missing(const InputFile& input) {
   auto error = fail(
       Code::kFailedPrecondition,
       fmt::format("{}: assets/{} does not exist; upload the file first", input.name, input.sha256),
-      "ASSET_MISSING");
+      ErrorReason::ASSET_MISSING);
   error.value().metadata["asset"] = "assets/" + input.sha256;
   return error;
 }

@@ -84,7 +84,8 @@ Result<Calibration> CalibrationStore::create(const NewCalibration& definition,
 Result<Calibration> CalibrationStore::get(std::int64_t id) {
   HP_ASSIGN_OR_RETURN(auto found, select("WHERE c.id=?", {id}));
   if (!found.empty()) return std::move(found.front());
-  return fail(Code::kNotFound, calibration_name(id) + " does not exist", "CALIBRATION_NOT_FOUND");
+  return fail(Code::kNotFound, calibration_name(id) + " does not exist",
+              ErrorReason::CALIBRATION_NOT_FOUND);
 }
 
 Result<std::optional<Calibration>> CalibrationStore::active(CalibrationKind kind) {

@@ -24,7 +24,7 @@ Status check_none_open(Database& database, const std::string& verb) {
   return tl::unexpected(Error{
       Code::kFailedPrecondition,
       fmt::format("the {} {} is not finished; wait until it ends, or cancel it first", verb, name),
-      "STATE_FORBIDS",
+      ErrorReason::STATE_FORBIDS,
       {{verb, name}}});
 }
 

@@ -16,7 +16,7 @@ Result<std::optional<std::string>> earlier_result(Database& database, const std:
   if (result && digest != key.digest) {
     return fail(Code::kInvalidArgument,
                 "request_id: already used for another request; use a new one for each request",
-                "REQUEST_ID_REUSED");
+                ErrorReason::REQUEST_ID_REUSED);
   }
   return result;
 }

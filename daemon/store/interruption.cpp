@@ -28,7 +28,7 @@ Error lost_too_often(Interruption why) {
                         "check the machines that run workers, and retry the job if the job was not "
                         "the cause",
                         kMostLosses),
-            "WORKER_KILLED",
+            ErrorReason::WORKER_KILLED,
             {}};
   }
   return {Code::kInternal,
@@ -37,7 +37,7 @@ Error lost_too_often(Interruption why) {
               "it was not started again; check the daemon's log, and retry the job if the job was "
               "not the cause",
               kMostLosses),
-          "DAEMON_LOST",
+          ErrorReason::DAEMON_LOST,
           {}};
 }
 

@@ -88,7 +88,7 @@ struct NewJob {
   std::string dip_status;    ///< initial status of a dip: a serialised hydroprint.v1.DipStatus
 };
 
-/// Reason for a failed job; see hydroprint.v1.JobError. The error's metadata `field` is the field
+/// Reason for a failed job; see hydroprint.v1.Failure. The error's `field` is the field
 /// of the job at fault.
 struct JobFailure {
   Error error;

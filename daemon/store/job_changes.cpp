@@ -70,14 +70,12 @@ Status JobChanges::finish_failed(std::int64_t id, const JobFailure& failure) {
   const auto optional = [](const std::optional<std::int32_t>& value) {
     return value ? DbValue(std::int64_t{*value}) : DbValue();
   };
-  const auto& metadata = failure.error.metadata;
-  const auto field = metadata.find("field");
-  HP_RETURN_IF_ERROR(
-      database_.run("UPDATE jobs SET error_code=?, error_reason=?, error_message=?, error_field=?, "
-                    "exit_status=?, signal=? WHERE id=?",
-                    {static_cast<std::int64_t>(failure.error.code), failure.error.reason,
-                     failure.error.message, field == metadata.end() ? std::string() : field->second,
-                     optional(failure.exit_status), optional(failure.signal), id}));
+  HP_RETURN_IF_ERROR(database_.run(
+      "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, error_field=?, "
+      "exit_status=?, signal=? WHERE id=?",
+      {static_cast<std::int64_t>(failure.error.code), std::string(name_of(failure.error.reason)),
+       failure.error.message, failure.error.field, optional(failure.exit_status),
+       optional(failure.signal), id}));
   return finish(id, JobState::kFailed, failure.error.message);
 }
 

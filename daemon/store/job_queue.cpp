@@ -30,7 +30,7 @@ std::vector<WaitingJob> reordered(std::vector<WaitingJob> jobs, std::int64_t id,
 }
 
 tl::unexpected<Error> cannot_move(std::int64_t id, const std::string& why) {
-  return fail(Code::kFailedPrecondition, job_name(id) + " " + why, "STATE_FORBIDS");
+  return fail(Code::kFailedPrecondition, job_name(id) + " " + why, ErrorReason::STATE_FORBIDS);
 }
 
 }  // namespace

@@ -18,9 +18,9 @@ std::optional<JobFailure> read_failure(const DbRow& row) {
   if (row.is_null(24)) return std::nullopt;
   JobFailure failure;
   failure.error.code = static_cast<Code>(row.integer(24));
-  failure.error.reason = row.text(25);
+  parse(row.text(25), failure.error.reason);
   failure.error.message = row.text(26);
-  if (!row.text(37).empty()) failure.error.metadata["field"] = row.text(37);
+  failure.error.field = row.text(37);
   if (!row.is_null(27)) failure.exit_status = static_cast<std::int32_t>(row.integer(27));
   if (!row.is_null(28)) failure.signal = static_cast<std::int32_t>(row.integer(28));
   return failure;
@@ -85,7 +85,7 @@ Result<std::vector<Job>> select_jobs(Database& database, const std::string& wher
 Result<Job> select_job(Database& database, std::int64_t id) {
   HP_ASSIGN_OR_RETURN(auto jobs, select_jobs(database, "WHERE id=?", {id}));
   if (jobs.empty()) {
-    return fail(Code::kNotFound, job_name(id) + " does not exist", "JOB_NOT_FOUND");
+    return fail(Code::kNotFound, job_name(id) + " does not exist", ErrorReason::JOB_NOT_FOUND);
   }
   Job job = std::move(jobs.front());
   HP_RETURN_IF_ERROR(

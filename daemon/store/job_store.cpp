@@ -16,9 +16,9 @@ namespace hydroprint::daemon {
 namespace {
 
 tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
-  auto error =
-      fail(Code::kFailedPrecondition,
-           job_name(job.id) + " is " + name_of(job.state) + "; " + remedy, "STATE_FORBIDS");
+  auto error = fail(Code::kFailedPrecondition,
+                    job_name(job.id) + " is " + name_of(job.state) + "; " + remedy,
+                    ErrorReason::STATE_FORBIDS);
   error.value().metadata["state"] = name_of(job.state);
   return error;
 }
@@ -46,7 +46,7 @@ Status JobStore::check_queue() {
     return fail(Code::kResourceExhausted,
                 fmt::format("the queue is full ({} jobs); try again when some have finished",
                             options_.max_queued),
-                "QUEUE_FULL");
+                ErrorReason::QUEUE_FULL);
   }
   return {};
 }
@@ -218,7 +218,8 @@ Result<Job> JobStore::cancel(std::int64_t id) {
   auto marked = changes_.change(id, mark);
   // This job may have filled the disk. The first attempt has emptied the database's log, so try
   // again.
-  if (!marked && marked.error().reason == "DISK_FULL") marked = changes_.change(id, mark);
+  if (!marked && marked.error().reason == ErrorReason::DISK_FULL)
+    marked = changes_.change(id, mark);
   return marked;
 }
 
@@ -239,7 +240,7 @@ Result<Job> JobStore::start(std::int64_t id, const std::string& executor,
     }
     return changes_.set_state(id, JobState::kRunning, "");
   });
-  if (!started && started.error().reason == "DISK_FULL") discard_unowned(id);
+  if (!started && started.error().reason == ErrorReason::DISK_FULL) discard_unowned(id);
   return started;
 }
 
@@ -318,7 +319,7 @@ Result<Artifact> JobStore::artifact(std::int64_t id, const std::string& name) {
                       select_artifacts(database_, "WHERE job=? AND name=?", {id, name}));
   if (found.empty()) {
     return fail(Code::kNotFound, job_name(id) + " has no artifact \"" + name + "\"",
-                "ARTIFACT_NOT_FOUND");
+                ErrorReason::ARTIFACT_NOT_FOUND);
   }
   return found.front();
 }
@@ -330,7 +331,7 @@ Status JobStore::check_was_given(std::int64_t seq) {
               fmt::format("after_seq: event {} does not exist in this store; get the job again and "
                           "watch without after_seq",
                           seq),
-              "EVENTS_GONE");
+              ErrorReason::EVENTS_GONE);
 }
 
 Result<std::vector<JobEvent>> JobStore::all_events(std::int64_t after_seq, int limit) {

@@ -11,7 +11,7 @@ constexpr std::int64_t kMebibyte = 1 << 20;
 
 tl::unexpected<Error> over_quota(const char* quota, std::int64_t used, std::int64_t allowed,
                                  const std::string& words) {
-  auto error = fail(Code::kResourceExhausted, words, "QUOTA_EXCEEDED");
+  auto error = fail(Code::kResourceExhausted, words, ErrorReason::QUOTA_EXCEEDED);
   error.value().metadata = {
       {"quota", quota}, {"used", fmt::to_string(used)}, {"allowed", fmt::to_string(allowed)}};
   return error;

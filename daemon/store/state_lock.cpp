@@ -33,7 +33,7 @@ Status check_restored(const Layout& layout) {
               layout.root.string() +
                   ": the restore of a backup into this folder was not finished; run hydroprint "
                   "admin restore again",
-              "RESTORE_UNFINISHED");
+              ErrorReason::RESTORE_UNFINISHED);
 }
 
 }  // namespace hydroprint::daemon

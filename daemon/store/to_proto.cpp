@@ -22,12 +22,11 @@ void set_times(const Job& job, v1::Job& out) {
   }
 }
 
-void set_error(const JobFailure& failure, v1::JobError& out) {
-  out.set_code(rest::number_of(failure.error.code));
-  out.set_reason(failure.error.reason);
+void set_error(const JobFailure& failure, v1::Failure& out) {
+  out.set_code(static_cast<google::rpc::Code>(rest::number_of(failure.error.code)));
+  out.set_reason(static_cast<v1::ErrorReason>(failure.error.reason));
   out.set_message(failure.error.message);
-  const auto field = failure.error.metadata.find("field");
-  if (field != failure.error.metadata.end()) out.set_field(field->second);
+  out.set_field(failure.error.field);
   if (failure.exit_status) out.set_exit_status(*failure.exit_status);
   if (failure.signal) out.set_signal(*failure.signal);
 }

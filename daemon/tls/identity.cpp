@@ -33,7 +33,7 @@ template <class T>
 using Owned = std::unique_ptr<T, Deleter>;
 
 tl::unexpected<Error> refused(const std::filesystem::path& file, const std::string& why) {
-  return fail(Code::kInvalidArgument, file.string() + ": " + why, "CONFIG_INVALID");
+  return fail(Code::kInvalidArgument, file.string() + ": " + why, ErrorReason::CONFIG_INVALID);
 }
 
 std::string openssl_words() {

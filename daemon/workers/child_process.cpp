@@ -159,7 +159,7 @@ Result<ChildProcess> launch(const Launch& what) {
         fmt::format("cannot start a worker: {}; free memory, or end other processes on this "
                     "machine",
                     std::strerror(errno)),
-        "WORKER_UNUSABLE");
+        ErrorReason::WORKER_UNUSABLE);
   }
   ::setpgid(worker.pid, worker.pid);
   worker.handle = UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, worker.pid, 0)));

@@ -33,7 +33,7 @@ Result<CommandRun> CommandRun::start(const std::vector<std::string>& command,
   if (plan.program.empty()) {
     return fail(Code::kFailedPrecondition,
                 command.front() + ": this program does not exist, or is not in PATH; install it",
-                "WORKER_UNUSABLE");
+                ErrorReason::WORKER_UNUSABLE);
   }
   plan.arguments.assign(command.begin() + 1, command.end());
   plan.inputs = plan.work = folder;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "daemon/platform/log.h"
+#include "daemon/workers/worker_outcome.h"
 #include "sim/base/checked_json.h"
 
 namespace hydroprint::daemon {
@@ -27,7 +28,7 @@ constexpr int kLookAgain_ms = 500;
 
 tl::unexpected<Error> shutting_down() {
   return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
-              "SHUTTING_DOWN");
+              ErrorReason::SHUTTING_DOWN);
 }
 
 /// Returns a worker's response, or the error in it; nullopt if it belongs to a request with another
@@ -37,11 +38,12 @@ std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame fram
   if (json_unsigned(head, "id") != static_cast<std::uint64_t>(id)) return {};
   const auto& error = json_at(head, "error");
   if (error.is_null()) return frame;
-  const bool is_input = json_string(error, "reason") == "INPUT_REFUSED";
-  return fail(
-      Code::kInvalidArgument,
-      json_string(error, "message").value_or("the worker refused the request without a message"),
-      is_input ? "INPUT_REFUSED" : "PREVIEW_REFUSED");
+  Error refused = read_failure(error).value_or(
+      Error{{}, "the worker refused the request without a readable reason"});
+  refused.code = Code::kInvalidArgument;
+  if (refused.reason != ErrorReason::INPUT_REFUSED) refused.reason = ErrorReason::PREVIEW_REFUSED;
+  if (!refused.field.empty()) refused.field.insert(0, "simulate.");
+  return tl::unexpected(std::move(refused));
 }
 
 }  // namespace
@@ -104,13 +106,13 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
   if (stopping_) return shutting_down();
   if (!slots_.contains(owner) && !make_room()) {
     return fail(Code::kResourceExhausted, "too many previews are open; try again in a moment",
-                "PREVIEWS_FULL");
+                ErrorReason::PREVIEWS_FULL);
   }
   std::unique_ptr<Slot>& slot = slots_[owner];
   if (!slot) slot = std::make_unique<Slot>();
   if (slot->call) {
-    finish(*slot,
-           fail(Code::kAborted, "superseded by a newer preview request", "PREVIEW_SUPERSEDED"));
+    finish(*slot, fail(Code::kAborted, "superseded by a newer preview request",
+                       ErrorReason::PREVIEW_SUPERSEDED));
   }
   const auto now = SteadyClock::now();
   slot->used = now;
@@ -172,7 +174,7 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
   } else if (slot.call && now > slot.call->deadline) {
     finish(slot, fail(Code::kResourceExhausted,
                       "it took longer than 30 s; simplify the mesh, or submit a job instead",
-                      "TIME_LIMIT"));
+                      ErrorReason::TIME_LIMIT));
     slot.worker = nullptr;
   }
 }

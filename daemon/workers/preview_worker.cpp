@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds kTimeToEnd{500};
 Error unusable() {
   return {Code::kInternal,
           "the worker's preview cannot be read; check that workers.program is hydroprint-worker",
-          "WORKER_UNUSABLE",
+          ErrorReason::WORKER_UNUSABLE,
           {}};
 }
 
@@ -42,7 +42,7 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
   std::unique_ptr<PreviewWorker> preview_worker(new PreviewWorker(ask.key, layout.preview(number)));
   Launch plan;
   plan.program = program;
-  plan.arguments = {"preview", fmt::format("--threads={}", threads)};
+  plan.arguments = {"preview", "--json", fmt::format("--threads={}", threads)};
   plan.inputs = preview_worker->folder_ / "in";
   plan.work = preview_worker->folder_ / "work";
   plan.limits = limits;
@@ -73,7 +73,7 @@ std::vector<PreviewFrame> PreviewWorker::read() {
   const bool is_open = drain(worker_.answer, bytes_, kAtOnce);
   for (;;) {
     auto frame = cut_framed(bytes_, kMostBytes);
-    if (!frame) failure_ = unusable();
+    if (!frame) judge_end();  // a failure at the start is not a frame
     if (!frame || !*frame) break;
     frames.push_back(std::move(**frame));
   }
@@ -85,10 +85,11 @@ void PreviewWorker::judge_end() {
   // The process closes its pipes slightly before it ends.
   const auto ended = wait_for_end(worker_, kTimeToEnd);
   (void)drain(worker_.errors, words_, kWordsKept);
-  const int wait_status = ended ? *ended : kill_and_wait(worker_);
+  if (!ended) kill_and_wait(worker_);
   worker_.pid = -1;
-  const auto why = judge(wait_status, StopReason::kNothing, words_);
+  const auto why = ended ? judge(*ended, StopReason::kNothing, words_, bytes_) : std::nullopt;
   failure_ = why ? why->error : unusable();
+  if (!failure_->field.empty()) failure_->field.insert(0, "simulate.");
 }
 
 }  // namespace hydroprint::daemon

@@ -43,7 +43,7 @@ Result<std::string> read_build_id(const std::filesystem::path& program) {
   if (end.is_late) {
     return fail(Code::kInternal,
                 program.string() + " --version does not answer; check workers.program, and retry",
-                "WORKER_UNUSABLE");
+                ErrorReason::WORKER_UNUSABLE);
   }
   const auto answer = parse_json(end.output).value_or(nullptr);
   if (auto build_id = json_string(answer, "build_id")) return *std::move(build_id);
@@ -58,7 +58,7 @@ Result<std::string> ProgramDigest::get() {
   if (program.empty()) {
     return fail(Code::kInternal,
                 path_.string() + ": the worker program does not exist; check workers.program",
-                "WORKER_UNUSABLE");
+                ErrorReason::WORKER_UNUSABLE);
   }
   const std::string stamp = program + stamp_of_modules(path_.parent_path());
   if (stamp != stamp_) {

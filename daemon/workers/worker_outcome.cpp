@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "hydroprint/v1/error_reason.pb.h"
+#include "daemon/rest/json_text.h"
+#include "hydroprint/v1/failure.pb.h"
 #include "sim/base/checked_json.h"
 
 namespace hydroprint::daemon {
@@ -16,8 +17,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
 constexpr std::size_t kLongestField = 200;
-constexpr std::string_view kProgram = "hydroprint-worker: ";  // in front of its messages
-constexpr std::size_t kLongestLine = 4 << 10;                 // of progress
+constexpr std::size_t kLongestLine = 4 << 10;  // of progress
 
 // Keeps printable ASCII and well-formed UTF-8; replaces all other bytes with '?'.
 std::string printable(std::string_view text) {
@@ -54,52 +54,54 @@ std::string shortened(std::string text, std::size_t longest) {
   return text.substr(0, longest);
 }
 
-JobFailure failure(Code code, std::string reason, std::string message) {
-  return {{code, std::move(message), std::move(reason), {}}, {}, {}};
+JobFailure failure(Code code, ErrorReason reason, std::string message) {
+  return {{code, std::move(message), reason}, {}, {}};
 }
 
 JobFailure memory_failure() {
-  return failure(Code::kResourceExhausted, "MEMORY_LIMIT",
+  return failure(Code::kResourceExhausted, ErrorReason::MEMORY_LIMIT,
                  "the worker exceeded its memory limit; simplify the model, lower dpi, or "
                  "raise workers.memory_mib");
 }
 
 JobFailure time_failure() {
-  return failure(Code::kResourceExhausted, "TIME_LIMIT",
+  return failure(Code::kResourceExhausted, ErrorReason::TIME_LIMIT,
                  "the worker exceeded its time limit; simplify the model, lower dpi, or raise "
                  "workers.time_limit_s");
 }
 
 JobFailure disk_failure() {
   return failure(
-      Code::kResourceExhausted, "DISK_FULL",
+      Code::kResourceExhausted, ErrorReason::DISK_FULL,
       "the artifacts do not fit on the daemon's disk; delete jobs or assets, free disk space, "
       "or lower dpi, and retry");
 }
 
 JobFailure output_failure() {
-  return failure(Code::kResourceExhausted, "OUTPUT_LIMIT",
+  return failure(Code::kResourceExhausted, ErrorReason::OUTPUT_LIMIT,
                  "the worker exceeded its limit on file size; lower dpi or raise "
                  "workers.file_mib");
 }
 
-JobFailure judge_exit(int status, const std::string& words) {
+// Judges an exit status. `message` is the program's own; `words`, its last ones on stderr, are
+// shown where a program has no message, because it did not start or ended unexpectedly.
+JobFailure judge_exit(int status, const std::string& message, const std::string& words) {
   switch (status) {
     case 2:
     case 3:
-      return failure(Code::kInvalidArgument, "INPUT_REFUSED",
-                     words.empty() ? "the worker refused its input without a message" : words);
+      return failure(Code::kInvalidArgument, ErrorReason::INPUT_REFUSED,
+                     message.empty() ? "the worker refused its input without a message" : message);
     case 4:
-      return failure(Code::kInternal, "COMPUTATION_FAILED",
-                     words.empty() ? "the computation failed without a message" : words);
+      return failure(Code::kInternal, ErrorReason::COMPUTATION_FAILED,
+                     message.empty() ? "the computation failed without a message" : message);
     case 127:
-      return failure(Code::kInternal, "WORKER_UNUSABLE",
+      return failure(Code::kInternal, ErrorReason::WORKER_UNUSABLE,
                      words.empty() ? "the worker cannot be started; check workers.program" : words);
     case 130:
-      return failure(Code::kCancelled, "WORKER_KILLED",
+      return failure(Code::kCancelled, ErrorReason::WORKER_KILLED,
                      "the worker was interrupted by a signal; try again");
     default:
-      return failure(Code::kInternal, "COMPUTATION_FAILED",
+      return failure(Code::kInternal, ErrorReason::COMPUTATION_FAILED,
                      fmt::format("the worker ended with status {}{}{}", status,
                                  words.empty() ? "" : ": ", words));
   }
@@ -109,62 +111,51 @@ JobFailure judge_signal(int signal) {
   if (signal == SIGXCPU) return time_failure();
   if (signal == SIGXFSZ) return output_failure();
   if (signal == SIGKILL || signal == SIGTERM) {
-    return failure(Code::kInternal, "WORKER_KILLED",
+    return failure(Code::kInternal, ErrorReason::WORKER_KILLED,
                    fmt::format("the worker was killed (signal {}) by a user, or because memory "
                                "ran out; try again",
                                signal));
   }
-  return failure(Code::kInternal, "WORKER_KILLED",
+  return failure(Code::kInternal, ErrorReason::WORKER_KILLED,
                  fmt::format("the worker crashed (signal {}, {}); please report the crash together "
                              "with the model",
                              signal, ::strsignal(signal)));
 }
 
-// Returns the error that a program printed as JSON for its failure: message, reason and field;
-// empty if it printed no error. The program is untrusted.
-Error printed_error(std::string_view answer) {
-  const auto object = parse_json(last_of(answer)).value_or(nullptr);
-  const auto& error = json_at(object, "error");
-  Error out;
-  out.message = shortened(printable(json_string(error, "message").value_or("")), kLongestMessage);
-  out.reason = json_string(error, "reason").value_or("");
-  if (const auto field = json_string(json_at(error, "metadata"), "field"))
-    out.metadata["field"] = shortened(printable(*field), kLongestField);
-  return out;
-}
-
-// Translates limits of the machine and of the worker, for which the program has its own reason
-// codes (sim/base, sim/worker); nullopt for other reasons.
-std::optional<JobFailure> limit_failure(const std::string& reason) {
-  if (reason == "OUT_OF_MEMORY") return memory_failure();
-  if (reason == "DISK_FULL") return disk_failure();
-  if (reason == "FILE_LIMIT") return output_failure();
+// Translates limits of the machine and of the worker; nullopt for other reasons.
+std::optional<JobFailure> limit_failure(ErrorReason reason) {
+  if (reason == ErrorReason::MEMORY_LIMIT) return memory_failure();
+  if (reason == ErrorReason::DISK_FULL) return disk_failure();
+  if (reason == ErrorReason::OUTPUT_LIMIT) return output_failure();
   return std::nullopt;
-}
-
-bool is_known(const std::string& reason) {
-  v1::ErrorReason parsed = v1::ERROR_REASON_UNSPECIFIED;
-  return v1::ErrorReason_Parse(reason, &parsed);
 }
 
 // Returns the failure of a program that ended by itself with a nonzero status.
 JobFailure judge_failed_exit(int status, const std::string& words, std::string_view answer) {
-  const Error printed = printed_error(answer);
+  const auto object = parse_json(last_of(answer)).value_or(nullptr);
+  const Error printed = read_failure(json_at(object, "error")).value_or(Error{});
   if (auto failure = limit_failure(printed.reason)) return *std::move(failure);
-  JobFailure out = judge_exit(status, printed.message.empty() ? words : printed.message);
-  out.error.metadata = printed.metadata;
-  const bool is_general =
-      out.error.reason == "INPUT_REFUSED" || out.error.reason == "COMPUTATION_FAILED";
-  if (is_general && is_known(printed.reason)) out.error.reason = printed.reason;
+  JobFailure out = judge_exit(status, printed.message, words);
+  out.error.field = printed.field;
+  const bool is_general = out.error.reason == ErrorReason::INPUT_REFUSED ||
+                          out.error.reason == ErrorReason::COMPUTATION_FAILED;
+  if (is_general && printed.reason != ErrorReason{}) out.error.reason = printed.reason;
   return out;
 }
 
 }  // namespace
 
 std::string last_line(std::string_view errors) {
-  errors = last_of(errors);
-  if (errors.starts_with(kProgram)) errors.remove_prefix(kProgram.size());
-  return shortened(printable(errors), kLongestMessage);
+  return shortened(printable(last_of(errors)), kLongestMessage);
+}
+
+std::optional<Error> read_failure(const nlohmann::json& json) {
+  v1::Failure failure;
+  if (!json.is_object() || !rest::read_json(json.dump(), failure, "failure")) return {};
+  Error out{Code::kInternal, shortened(printable(failure.message()), kLongestMessage)};
+  out.reason = static_cast<ErrorReason>(failure.reason());
+  out.field = shortened(printable(failure.field()), kLongestField);
+  return out;
 }
 
 std::optional<JobFailure> judge(int wait_status, StopReason stopped, std::string_view errors,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,15 +13,17 @@ namespace hydroprint::daemon {
 /// Why the pool stopped a worker, if it did.
 enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
 
-/// Returns the last non-empty line of a worker's stderr without the program's name, made safe for
-/// one line of text.
+/// Returns the last non-empty line of a worker's stderr, made safe for one line of text.
 [[nodiscard]] std::string last_line(std::string_view errors);
+
+/// Reads the Failure that a program printed. Nullopt if it is not a valid one; its texts are made
+/// safe for one line, because the program is untrusted.
+[[nodiscard]] std::optional<Error> read_failure(const nlohmann::json& json);
 
 /// Translates the end of a worker to its job's failure; nullopt if it succeeded.
 /// @param wait_status  from waitpid()
 /// @param errors       its stderr
-/// @param answer       its stdout, which with --json ends with the error: message, reason code of
-///                     ErrorReason, and the field at fault, which becomes metadata `field`
+/// @param answer       its stdout, which with --json ends with {"error": Failure}
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StopReason stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});

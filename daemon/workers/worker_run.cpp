@@ -29,7 +29,7 @@ JobFailure silence_failure(const Execution& execution, milliseconds silence) {
                        "whether the job still runs there; check that it works, and retry the job",
                        execution.executor,
                        std::chrono::duration_cast<std::chrono::minutes>(silence).count()),
-           "WORKER_UNUSABLE",
+           ErrorReason::WORKER_UNUSABLE,
            {}},
           {},
           {}};
@@ -40,7 +40,7 @@ tl::unexpected<Error> unusable_report(const Error& why) {
               fmt::format("the worker's report cannot be used: {}; check that workers.program is "
                           "hydroprint-worker",
                           why.message),
-              "WORKER_UNUSABLE");
+              ErrorReason::WORKER_UNUSABLE);
 }
 
 }  // namespace
@@ -312,7 +312,7 @@ bool WorkerRun::finish(JobStore& store) {
 
 // If the artifacts leave no space for their rows in the database, the job fails without artifacts.
 void WorkerRun::free_disk_for(const Error& error) {
-  if (error.reason != "DISK_FULL" || !published_ || !*published_) return;
+  if (error.reason != ErrorReason::DISK_FULL || !published_ || !*published_) return;
   published_ = tl::unexpected(error);
   next_end_ = {};
 }
@@ -334,13 +334,12 @@ Result<Job> WorkerRun::store_end(JobStore& store) const {
     return store.succeed(job_.id, (*published_)->artifacts, (*published_)->calibration);
   }
   if (published_) return store.give_up(job_.id, {published_->error(), {}, {}});
-  const JobFailure cancelled{{Code::kCancelled, "cancelled", "", {}}, {}, {}};
+  const JobFailure cancelled{{Code::kCancelled, "cancelled"}, {}, {}};
   JobFailure failure =
       judge(end_.wait_status, stopped_, end_.errors, end_.answer).value_or(cancelled);
-  const auto field = failure.error.metadata.find("field");  // of the spec
   const auto kind = kind_of(job_);
-  if (kind && field != failure.error.metadata.end())
-    field->second.insert(0, (*kind)->field().name() + ".");
+  if (std::string& field = failure.error.field; kind && !field.empty())  // of the spec
+    field.insert(0, (*kind)->field().name() + ".");
   return store.give_up(job_.id, failure);
 }
 

@@ -25,7 +25,7 @@ Result<std::optional<depth_camera::DepthFrame>> next_frame(depth_camera::DepthCa
     alive();
     auto frame = camera.next(kSlice);
     waited_s += std::chrono::duration<double>(kSlice).count();
-    const bool comes_late = !frame && frame.error().reason == "CAMERA_STALLED";
+    const bool comes_late = !frame && frame.error().reason == ErrorReason::CAMERA_STALLED;
     if (!comes_late || waited_s >= options.patience_s) return frame;
   }
 }
@@ -57,7 +57,7 @@ Result<CapturedFrames> take_frames(depth_camera::DepthCamera& camera, const Opti
   }
   if (out.frames.empty()) {
     return fail(Code::kDataLoss, camera.info().uri + ": contains no usable frame. Record it again",
-                "RECORDING_INVALID");
+                ErrorReason::RECORDING_INVALID);
   }
   context.progress(kStage, 1);
   return out;

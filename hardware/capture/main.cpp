@@ -36,7 +36,8 @@ double seconds_now() {
 }
 
 void print_error(const Error& error, bool json) {
-  worker::print_error(error, exit_status(error), json, kProgram);
+  if (json) worker::print_failure(error, exit_status(error));
+  worker::print_error(kProgram, full_message(error));
 }
 
 /// A recording in progress, under a temporary name until it is complete.
@@ -97,7 +98,7 @@ std::function<void()> bite(const Options& options, const worker::QuietStderr& qu
     const Error error{
         Code::kUnavailable,
         name + ": the driver does not respond. Unplug the camera and plug it in again",
-        "CAMERA_STALLED",
+        ErrorReason::CAMERA_STALLED,
         {}};
     print_error(error, options.json);
     ::_exit(static_cast<int>(exit_status(error)));

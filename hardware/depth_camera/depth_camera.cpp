@@ -38,14 +38,14 @@ Status initialise() {
   return fail(
       Code::kInternal,
       "OpenNI2 does not start" + details() + ". Install the packages of deploy/packages.txt",
-      "CAMERA_UNUSABLE");
+      ErrorReason::CAMERA_UNUSABLE);
 }
 
 tl::unexpected<Error> unusable(const std::string& uri, const std::string& what) {
   return fail(Code::kFailedPrecondition,
               fmt::format("{}: {}{}. Use a depth camera with 640 x 480 pixels at 30 Hz", uri, what,
                           details()),
-              "CAMERA_UNUSABLE");
+              ErrorReason::CAMERA_UNUSABLE);
 }
 
 /// Records whether the camera has been unplugged.
@@ -127,7 +127,7 @@ Status OpenNiCamera::open(const std::string& uri) {
     return fail(Code::kNotFound,
                 (uri.empty() ? "no depth camera is plugged in" : uri + ": no such depth camera") +
                     details() + ". Plug in the camera, or correct its name",
-                "CAMERA_NOT_FOUND");
+                ErrorReason::CAMERA_NOT_FOUND);
   }
   const openni::DeviceInfo& info = device_.getDeviceInfo();
   info_.uri = info.getUri();
@@ -172,7 +172,7 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
     return fail(
         Code::kDataLoss,
         fmt::format("{}: {}{}. Use an OpenNI2 recording (.oni)", path.string(), what, details()),
-        "RECORDING_INVALID");
+        ErrorReason::RECORDING_INVALID);
   };
   HP_RETURN_IF_ERROR(initialise());
   if (device_.open(path.c_str()) != openni::STATUS_OK || !device_.isFile()) {
@@ -206,11 +206,11 @@ tl::unexpected<Error> OpenNiCamera::no_frame() const {
     return fail(Code::kDataLoss,
                 fmt::format("{}: ends after {} of {} frames. Record it again", info_.uri,
                             frames_read_, *info_.frames),
-                "RECORDING_INVALID");
+                ErrorReason::RECORDING_INVALID);
   }
   return fail(Code::kUnavailable,
               info_.uri + ": no frame arrived in time. Unplug the camera and plug it in again",
-              "CAMERA_STALLED");
+              ErrorReason::CAMERA_STALLED);
 }
 
 Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds timeout) {
@@ -225,7 +225,7 @@ Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds t
   if (disconnect_listener_ && disconnect_listener_->happened()) {
     return fail(Code::kUnavailable,
                 info_.uri + ": the camera was disconnected. Check its cable and plug it in again",
-                "CAMERA_GONE");
+                ErrorReason::CAMERA_GONE);
   }
   if (status != openni::STATUS_OK) return no_frame();
   return read();

@@ -19,14 +19,14 @@ Status FrameWatch::look(const DepthFrame& frame) {
         name_ +
             ": the camera measures nothing. Remove its cover, keep objects at least 0.5 m away and "
             "shade it from the sun",
-        "CAMERA_BLACK");
+        ErrorReason::CAMERA_BLACK);
   }
   if (same_ >= kMostBad) {
     return fail(Code::kUnavailable,
                 name_ +
                     ": the camera is frozen: it repeats the same frame. Unplug it and plug it in "
                     "again",
-                "CAMERA_FROZEN");
+                ErrorReason::CAMERA_FROZEN);
   }
   return {};
 }

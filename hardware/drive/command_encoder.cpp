@@ -18,7 +18,7 @@ Status check_speed(const DriveProfile& profile, double speed_mm_per_s) {
       Code::kOutOfRange,
       fmt::format("a speed of {:g} mm/s is out of range. Use a speed above 0 and up to {:g} mm/s",
                   speed_mm_per_s, profile.max_speed_mm_per_s),
-      "LIMIT_EXCEEDED");
+      ErrorReason::LIMIT_EXCEEDED);
 }
 
 Result<std::vector<std::uint16_t>> words_for(const DriveProfile& profile, const Value& value,

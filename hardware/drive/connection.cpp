@@ -28,7 +28,8 @@ constexpr std::size_t kChunk = 512;
 constexpr std::size_t kLongestFrame = 256;
 
 tl::unexpected<Error> offline(const Endpoint& endpoint, const std::string& what) {
-  return fail(Code::kUnavailable, "drive at " + endpoint.text() + ": " + what, "RIG_OFFLINE");
+  return fail(Code::kUnavailable, "drive at " + endpoint.text() + ": " + what,
+              ErrorReason::RIG_OFFLINE);
 }
 
 std::string serial_remedy(int error) {

@@ -17,18 +17,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Error unsafe(const std::string& what) {
-  return {Code::kFailedPrecondition, what, "DRIVE_CONFIG_UNSAFE", {}};
+  return {Code::kFailedPrecondition, what, ErrorReason::DRIVE_CONFIG_UNSAFE, {}};
 }
 
 /// Returns whether the drive responded despite the error, so that its state is still known.
 bool is_answer(const Error& error) {
-  return error.reason == "DRIVE_REFUSED" || error.reason == "DRIVE_BUSY" ||
-         error.reason == "LIMIT_EXCEEDED";
+  return error.reason == ErrorReason::DRIVE_REFUSED || error.reason == ErrorReason::DRIVE_BUSY ||
+         error.reason == ErrorReason::LIMIT_EXCEEDED;
 }
 
 /// Returns whether a reply was damaged, missing or late.
 bool is_bad_reply(const Error& error) {
-  return error.reason == "REPLY_INVALID" || error.metadata.contains("timeout");
+  return error.reason == ErrorReason::REPLY_INVALID || error.metadata.contains("timeout");
 }
 
 std::optional<Error> judge_time(const DriveProfile& profile, double time_s) {
@@ -95,7 +95,7 @@ std::optional<Error> Drive::find_rtu_over_tcp(const Error& error) const {
   return Error{Code::kUnavailable,
                "the gateway at " + link_->endpoint().text() +
                    " speaks Modbus RTU over TCP. Set rtu_over_tcp = true in the drive's profile",
-               "RIG_OFFLINE",
+               ErrorReason::RIG_OFFLINE,
                {}};
 }
 
@@ -109,7 +109,8 @@ bool Drive::connected() const { return link_->is_open() && link_->connections() 
 Status Drive::check_identity() {
   for (const Mark& mark : profile_.identity) {
     const auto words = read(mark.space, mark.address, 1);
-    if (!words && words.error().reason != "DRIVE_REFUSED") return tl::unexpected(words.error());
+    if (!words && words.error().reason != ErrorReason::DRIVE_REFUSED)
+      return tl::unexpected(words.error());
     if (words && ((*words)[0] & mark.mask) == mark.value) continue;
     return tl::unexpected(
         unsafe(fmt::format("register {:#06x} ({}) {}; {:#06x} is expected, so the drive is not a "
@@ -161,7 +162,7 @@ Status Drive::read_part(const Block& block, const Part& part, Polled& polled) {
                 fmt::format("a reply of {} lacks its mark ({}, register {:#06x}) and belongs to "
                             "another request. Poll again",
                             profile_.name, block.mark.meaning, block.mark.address),
-                "REPLY_INVALID");
+                ErrorReason::REPLY_INVALID);
   }
   std::copy(words.begin(), words.end(),
             polled.blocks.back().begin() + part.address - block.address);
@@ -198,7 +199,7 @@ Result<DriveState> Drive::poll(Clock::time_point repeat_until) {
   if (!connected()) {
     known_ = false;
     return fail(Code::kUnavailable, profile_.name + " is not connected. Connect to it first",
-                "RIG_OFFLINE");
+                ErrorReason::RIG_OFFLINE);
   }
   Polled polled;
   polled.repeat_until = repeat_until;
@@ -223,7 +224,7 @@ Status Drive::may_move() const {
   if (known_ && connected()) return {};
   return fail(Code::kUnavailable,
               "the state of " + profile_.name + " is unknown after a failure. Poll the drive first",
-              "RIG_OFFLINE");
+              ErrorReason::RIG_OFFLINE);
 }
 
 Status Drive::command(Command which, double position_mm, double speed_mm_per_s) {

@@ -17,7 +17,7 @@ tl::unexpected<Error> refuse(std::string_view text, const std::string& what) {
               fmt::format("drive at \"{}\": {}. Use tcp:192.168.1.20:502 or "
                           "rtu:/dev/serial/by-id/NAME?baud=115200&parity=E&stop=1",
                           text, what),
-              "CONFIG_INVALID");
+              ErrorReason::CONFIG_INVALID);
 }
 
 bool read_number(std::string_view text, int& out) {

@@ -36,7 +36,7 @@ tl::unexpected<Error> refused(const Request& request, int exception) {
       fmt::format("the drive refuses the request for register {} with exception {}{}. {}",
                   request.address, exception, text.empty() ? "" : fmt::format(" ({})", text),
                   busy ? "Try again" : "Check the drive's state and its profile"),
-      busy ? "DRIVE_BUSY" : "DRIVE_REFUSED",
+      busy ? ErrorReason::DRIVE_BUSY : ErrorReason::DRIVE_REFUSED,
       {{"exception", std::to_string(exception)}}};
   return tl::unexpected(std::move(error));
 }
@@ -72,7 +72,7 @@ Error invalid_reply(const std::string& what) {
   return {Code::kDataLoss,
           "the drive's reply " + what +
               ". If this persists, check cable, termination, baud rate and unit id",
-          "REPLY_INVALID",
+          ErrorReason::REPLY_INVALID,
           {}};
 }
 

@@ -62,7 +62,7 @@ bool ReplyReader::take_reply(const ReplyFrame& frame, std::size_t at) {
   std::vector<std::uint8_t> reply(frame.reply.begin(), frame.reply.end());
   reply[0] = static_cast<std::uint8_t>(request_.unit);
   auto words = decode_reply(request_, reply);
-  if (!words && words.error().reason == "REPLY_INVALID") {
+  if (!words && words.error().reason == ErrorReason::REPLY_INVALID) {
     other_ = words.error().message;
     return false;
   }

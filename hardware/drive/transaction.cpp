@@ -197,13 +197,13 @@ std::uint64_t Link::Line::connections() const {
 tl::unexpected<Error> Link::Line::explain(Connection::End end, const Request& request,
                                           const std::string& cause) const {
   const std::string where = fmt::format("drive at {}: ", endpoint_.text());
-  Error error{Code::kUnavailable, "", "RIG_OFFLINE", {}};
+  Error error{Code::kUnavailable, "", ErrorReason::RIG_OFFLINE, {}};
   switch (end) {
     case Connection::End::kTimeout:
       error.message = where + "no reply. Check power, cable and unit id";
       break;
     case Connection::End::kDamaged:
-      error = {Code::kDataLoss, where + cause, "REPLY_INVALID", {}};
+      error = {Code::kDataLoss, where + cause, ErrorReason::REPLY_INVALID, {}};
       break;
     case Connection::End::kEcho:
       error.message = where +
@@ -229,7 +229,7 @@ Result<std::vector<std::uint16_t>> Link::Line::transact(const Request& request, 
   if (!connection_) {
     return fail(Code::kUnavailable,
                 fmt::format("drive at {}: not connected. Connect to it first", endpoint_.text()),
-                "RIG_OFFLINE");
+                ErrorReason::RIG_OFFLINE);
   }
   if (endpoint_.serial) std::this_thread::sleep_until(quiet_until_);
   if (connection_->discard_input()) counters_.add_damaged(1);

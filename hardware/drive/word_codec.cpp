@@ -26,7 +26,7 @@ Result<std::vector<std::uint16_t>> encode(const Format& format, double value) {
   if (!(raw >= least_raw(format) && raw <= largest_raw(format)) || (raw == 0 && value != 0)) {
     return fail(Code::kOutOfRange,
                 fmt::format("the drive's registers cannot hold {:g}. Use another value", value),
-                "LIMIT_EXCEEDED");
+                ErrorReason::LIMIT_EXCEEDED);
   }
   const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
   const auto low = static_cast<std::uint16_t>(bits & 0xffffU);

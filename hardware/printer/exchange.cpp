@@ -62,7 +62,9 @@ class Connection {
 
   [[nodiscard]] Result<Ipp> exchange(ipp_t* request, std::span<const unsigned char> document) {
     if (gives_up_ && gives_up_()) return left();
-    if (!http_) return failure(kUnreachable, "cannot be reached. Check its power and the address");
+    if (!http_)
+      return failure(ErrorReason::PRINTER_UNREACHABLE,
+                     "cannot be reached. Check its power and the address");
     const double wait_s = std::chrono::duration<double>(timing_.answer).count();
     httpSetTimeout(http_.get(), wait_s, give_up, &timed_out_);
     Deadline deadline(httpGetFd(http_.get()), timing_.whole, gives_up_);
@@ -75,7 +77,7 @@ class Connection {
     if (status == HTTP_STATUS_ERROR) return broken(deadline, is_sent);
     if (status != HTTP_STATUS_OK) {
       return failure(
-          kNoIpp,
+          ErrorReason::PRINTER_NOT_IPP,
           fmt::format("responds \"{}\". Check the address's path, as in ipp://HOST/ipp/print",
                       httpStatus(status)));
     }
@@ -87,7 +89,7 @@ class Connection {
     if (timed_out_ || deadline.has_passed() || deadline.given_up() || httpError(http_.get()) != 0) {
       return broken(deadline, is_sent);
     }
-    return failure(kNoIpp, "does not respond with IPP. Check the address");
+    return failure(ErrorReason::PRINTER_NOT_IPP, "does not respond with IPP. Check the address");
   }
 
  private:
@@ -118,19 +120,21 @@ class Connection {
     return httpFlushWrite(http_.get()) >= 0;
   }
 
-  [[nodiscard]] tl::unexpected<Error> failure(const char* reason, const std::string& what) const {
+  [[nodiscard]] tl::unexpected<Error> failure(ErrorReason reason, const std::string& what) const {
     return fail(Code::kUnavailable, "printer " + address_.uri + ": " + what, reason);
   }
   [[nodiscard]] tl::unexpected<Error> left() const {
-    return fail(Code::kCancelled, "printer " + address_.uri + ": cancelled", kLeft);
+    return fail(Code::kCancelled, "printer " + address_.uri + ": cancelled",
+                ErrorReason::CANCELLED);
   }
   [[nodiscard]] tl::unexpected<Error> broken(const Deadline& deadline, bool is_sent) const {
     if (deadline.given_up()) return left();
     if (timed_out_ || deadline.has_passed()) {
-      return failure(kSilent, is_sent ? "does not respond in time. Check its display"
-                                      : "does not accept the data in time. Check its display");
+      return failure(ErrorReason::PRINTER_SILENT,
+                     is_sent ? "does not respond in time. Check its display"
+                             : "does not accept the data in time. Check its display");
     }
-    return failure(kLost, "closed the connection. Check its power");
+    return failure(ErrorReason::PRINTER_LOST, "closed the connection. Check its power");
   }
 
   const Address& address_;

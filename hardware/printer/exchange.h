@@ -26,17 +26,11 @@ struct ExchangeTiming {
   std::chrono::milliseconds whole{60000};  ///< timeout for the whole exchange
 };
 
-/// Error reasons for failed exchanges.
-inline constexpr const char* kUnreachable = "PRINTER_UNREACHABLE";  ///< nothing was sent
-inline constexpr const char* kSilent = "PRINTER_SILENT";  ///< connected, but no response in time
-inline constexpr const char* kLost = "PRINTER_LOST";      ///< the connection broke
-inline constexpr const char* kNoIpp = "PRINTER_NOT_IPP";  ///< the response is not IPP
-inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< the caller cancelled
-
 /// Sends one request, followed by a document, over a new connection and waits for the printer's
 /// reply, whatever its status. Ends in bounded time, except for host name lookup, which depends on
-/// the resolver. Returns kUnavailable with one of the reasons above, except that kLeft comes with
-/// kCancelled.
+/// the resolver. Returns kUnavailable with PRINTER_UNREACHABLE (nothing was sent), PRINTER_SILENT
+/// (connected, but no response in time), PRINTER_LOST (the connection broke) or PRINTER_NOT_IPP, or
+/// kCancelled with CANCELLED.
 /// @param gives_up  called ten times a second while connected; the exchange ends if it returns true
 [[nodiscard]] Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
                                    const std::function<bool()>& gives_up, ipp_t* request,

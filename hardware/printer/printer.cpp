@@ -117,7 +117,7 @@ tl::unexpected<Error> incomplete(const Address& address, const std::string& what
   return fail(
       Code::kFailedPrecondition,
       fmt::format("printer {}: its reply lacks {}. Check the printer's display", address.uri, what),
-      "PRINTER_REFUSED");
+      ErrorReason::PRINTER_REFUSED);
 }
 
 tl::unexpected<Error> refused(const Address& address, const std::string& what, ipp_t* reply) {
@@ -128,12 +128,13 @@ tl::unexpected<Error> refused(const Address& address, const std::string& what, i
                   message.empty() ? "" : ": ", message);
   if (is_about_format(reply)) {
     return fail(Code::kInvalidArgument, start + "Use a format that the printer supports",
-                "FORMAT_NOT_SUPPORTED");
+                ErrorReason::FORMAT_NOT_SUPPORTED);
   }
   if (status == IPP_STATUS_ERROR_NOT_FOUND) {
-    return fail(Code::kNotFound, start + "Check the address and the job number", "PRINTER_REFUSED");
+    return fail(Code::kNotFound, start + "Check the address and the job number",
+                ErrorReason::PRINTER_REFUSED);
   }
-  return fail(Code::kFailedPrecondition, start + "Check its display", "PRINTER_REFUSED");
+  return fail(Code::kFailedPrecondition, start + "Check its display", ErrorReason::PRINTER_REFUSED);
 }
 
 JobState job_state(int ipp_state) {
@@ -174,7 +175,7 @@ Result<JobReport> outcome(const Address& address, const JobReport& report) {
       Code::kAborted,
       fmt::format("printer {}: job {} was {}{}. Check the printer's display, then print again",
                   address.uri, report.id, canceled ? "cancelled" : "aborted", why),
-      canceled ? "PRINT_CANCELED" : "PRINT_ABORTED");
+      canceled ? ErrorReason::PRINT_CANCELED : ErrorReason::PRINT_ABORTED);
 }
 
 }  // namespace
@@ -252,7 +253,7 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
                         request.get(), job.document);
   if (!reply) {
     Error error = std::move(reply).error();
-    if (error.reason != kUnreachable) {
+    if (error.reason != ErrorReason::PRINTER_UNREACHABLE) {
       error.message +=
           ". The printer may have accepted the job. Check the printer before you print again";
     }
@@ -313,7 +314,7 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     if (!report && report.error().code != Code::kUnavailable) return report;
     if (!report && Clock::now() - last_report >= timing_.patience) {
       report.error().message += fmt::format(". Job {} may or may not have been printed", id);
-      report.error().reason = kLost;
+      report.error().reason = ErrorReason::PRINTER_LOST;
       return report;
     }
     if (report) {
@@ -331,7 +332,7 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
       return fail(Code::kUnavailable,
                   fmt::format("printer {}: job {} is still {}. Check the printer's display",
                               address_.uri, id, job_state_name(last.state)),
-                  "PRINT_UNFINISHED");
+                  ErrorReason::PRINT_UNFINISHED);
     }
     std::this_thread::sleep_for(timing_.poll);
   }

@@ -81,7 +81,7 @@ struct Submitted {
 class Printer {
  public:
   /// @param gives_up  called repeatedly, from any thread. Once it returns true, every call ends
-  ///                  soon with kCancelled, reason PRINTER_LEFT (within Timing::connect while there
+  ///                  soon with kCancelled, reason CANCELLED (within Timing::connect while there
   ///                  is no connection yet)
   explicit Printer(Address address, const Timing& timing = {}, std::function<bool()> gives_up = {});
 

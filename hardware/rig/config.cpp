@@ -24,7 +24,7 @@ constexpr std::array<RigConfigKey, 11> kKeys = {{
 }};
 
 tl::unexpected<Error> refuse(const std::string& fault) {
-  return fail(Code::kInvalidArgument, "rig." + fault, "CONFIG_INVALID");
+  return fail(Code::kInvalidArgument, "rig." + fault, ErrorReason::CONFIG_INVALID);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ constexpr double kStandstillMargin_s = 0.5;
 
 /// Whether the drive may have obeyed a command despite this error: its reply was lost or damaged.
 bool may_have_arrived(const Error& error) {
-  return error.metadata.contains("timeout") || error.reason == "REPLY_INVALID";
+  return error.metadata.contains("timeout") || error.reason == ErrorReason::REPLY_INVALID;
 }
 
 double seconds_since(TimePoint time) {
@@ -363,7 +363,7 @@ void ControlLoop::answer_waiting() {
     }
     Error error{Code::kAborted,
                 "the drive did not confirm the command; check the drive's display and try again",
-                "STATE_FORBIDS",
+                ErrorReason::STATE_FORBIDS,
                 {{"state", std::string(name(condition_.state))}}};
     answer(order, tl::unexpected(std::move(error)));
   }

@@ -56,7 +56,7 @@ std::future<Answer> Controller::order(Event::Kind kind, Plan plan) {
   if (!impl_->shared.orders.put(order)) {
     order.answer.set_value(fail(Code::kResourceExhausted,
                                 "too many commands are waiting for the rig; try again in a moment",
-                                "QUEUE_FULL"));
+                                ErrorReason::QUEUE_FULL));
   }
   return answer;
 }

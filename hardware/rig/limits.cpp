@@ -48,7 +48,7 @@ tl::unexpected<Error> limit_exceeded(const std::string& axis, std::string messag
                                      Range range) {
   return tl::unexpected(Error{Code::kOutOfRange,
                               std::move(message),
-                              "LIMIT_EXCEEDED",
+                              ErrorReason::LIMIT_EXCEEDED,
                               {{"axis", axis},
                                {"min", fmt::format("{:g}", range.low_mm)},
                                {"max", fmt::format("{:g}", range.high_mm)},

@@ -34,13 +34,13 @@ Status check(const RigConfig& config, const Plan& plan) {
   if (plan.legs.empty() || (plan.motion == Motion::kMove && plan.legs.size() != 1)) {
     return fail(Code::kInvalidArgument,
                 "the motion has no target, or a move has several; specify one target and its speed",
-                "SPEC_INVALID");
+                ErrorReason::SPEC_INVALID);
   }
   for (const Leg& leg : plan.legs) {
     HP_RETURN_IF_ERROR(check_target(config, leg.target_mm));
     HP_RETURN_IF_ERROR(check_speed(config, leg.speed_mm_per_s));
     if (!(leg.hold_s >= 0 && leg.hold_s <= 3600)) {
-      return fail(Code::kOutOfRange, "hold_s must be from 0 to 3600 s", "SPEC_INVALID");
+      return fail(Code::kOutOfRange, "hold_s must be from 0 to 3600 s", ErrorReason::SPEC_INVALID);
     }
   }
   return {};

@@ -35,7 +35,7 @@ Status check_order(const Order& order, std::uint64_t stops, const RigConfig& con
 }
 
 tl::unexpected<Error> aborted(const std::string& why) {
-  return fail(Code::kAborted, why, "STATE_FORBIDS");
+  return fail(Code::kAborted, why, ErrorReason::STATE_FORBIDS);
 }
 
 Error after_start(Error error) {

@@ -80,22 +80,22 @@ std::string_view name(Cause cause) {
   return "NONE";
 }
 
-std::string_view reason(Refusal refusal) {
+ErrorReason reason(Refusal refusal) {
   switch (refusal) {
     case Refusal::kOffline:
-      return "RIG_OFFLINE";
+      return ErrorReason::RIG_OFFLINE;
     case Refusal::kFaulted:
-      return "RIG_FAULTED";
+      return ErrorReason::RIG_FAULTED;
     case Refusal::kNotHomed:
-      return "RIG_NOT_HOMED";
+      return ErrorReason::RIG_NOT_HOMED;
     case Refusal::kMotionInProgress:
-      return "MOTION_IN_PROGRESS";
+      return ErrorReason::MOTION_IN_PROGRESS;
     case Refusal::kStateForbids:
-      return "STATE_FORBIDS";
+      return ErrorReason::STATE_FORBIDS;
     case Refusal::kConfigUnsafe:
-      return "DRIVE_CONFIG_UNSAFE";
+      return ErrorReason::DRIVE_CONFIG_UNSAFE;
   }
-  return "STATE_FORBIDS";
+  return ErrorReason::STATE_FORBIDS;
 }
 
 }  // namespace hydroprint::rig

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "hardware/rig/state.h"
+#include "sim/base/error_reason.h"
 
 namespace hydroprint::rig {
 
@@ -11,6 +12,6 @@ namespace hydroprint::rig {
 [[nodiscard]] std::string_view name(State state);
 [[nodiscard]] std::string_view name(Motion motion);
 [[nodiscard]] std::string_view name(Cause cause);
-[[nodiscard]] std::string_view reason(Refusal refusal);
+[[nodiscard]] ErrorReason reason(Refusal refusal);
 
 }  // namespace hydroprint::rig

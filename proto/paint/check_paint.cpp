@@ -13,7 +13,7 @@ namespace {
 using Numbers = google::protobuf::RepeatedField<double>;
 using Vector = std::array<double, 3>;
 
-const std::string kReason = "SPEC_INVALID";
+constexpr ErrorReason kReason = ErrorReason::SPEC_INVALID;
 /// Sine of the smallest angle between direction and up: one degree.
 constexpr double kLeastSine = 0.0174524;
 

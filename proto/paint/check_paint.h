@@ -58,7 +58,8 @@ std::vector<rules::Violation> check_fields_of(const Spec& spec, const std::strin
   if (!spec.has_paint()) return check_short_forms(layer_of(spec), prefix);
   if (spec.has_texture() || spec.has_project() || spec.has_project_size_mm() ||
       spec.has_project_turn_deg()) {
-    return {{prefix + "texture", "is replaced by paint; leave one of the two out", "SPEC_INVALID"}};
+    return {{prefix + "texture", "is replaced by paint; leave one of the two out",
+             ErrorReason::SPEC_INVALID}};
   }
   return check(spec.paint(), prefix + "paint");
 }

@@ -20,7 +20,6 @@ using Type = pb::FieldDescriptor::CppType;
 
 constexpr double kUnitLengthTolerance = 1e-3;
 constexpr std::size_t kLongestQuote = 40;
-const std::string kDefaultReason = "SPEC_INVALID";
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
 
@@ -111,8 +110,8 @@ class Checker {
       const std::string place = (path.empty() ? "" : path + ".") + field.name();
       const auto by = replaced.find(field.name());
       if (by != replaced.end() && count_of(message, field) > 0) {
-        violations_.push_back(
-            {place, "is taken from " + by->second + "; leave one of the two out", kDefaultReason});
+        violations_.push_back({place, "is taken from " + by->second + "; leave one of the two out",
+                               ErrorReason::SPEC_INVALID});
       } else {
         check_field(message, field, place);
       }
@@ -249,8 +248,10 @@ class Checker {
 
   void add(const std::string& path, const v1::FieldRules& rules, const std::string& problem) {
     if (problem.empty()) return;
+    const bool has_reason = rules.reason() != v1::ERROR_REASON_UNSPECIFIED;
     violations_.push_back(
-        {path, problem, rules.reason().empty() ? kDefaultReason : rules.reason()});
+        {path, problem,
+         has_reason ? static_cast<ErrorReason>(rules.reason()) : ErrorReason::SPEC_INVALID});
   }
 
   const FormatChecks& formats_;

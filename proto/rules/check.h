@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/error_reason.h"
+
 namespace google::protobuf {
 class Message;
 }
@@ -15,7 +17,7 @@ namespace hydroprint::rules {
 struct Violation {
   std::string field;    ///< path of the field: "simulate.dpi", "simulate.extra_files[1].name"
   std::string problem;  ///< "must be from 20 to 2400 dots per inch"
-  std::string reason;   ///< name of an ErrorReason
+  ErrorReason reason;
 
   bool operator==(const Violation&) const = default;
 };

@@ -19,11 +19,11 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
     case EDQUOT:
       return fail(Code::kResourceExhausted,
                   start + "the disk is full. Free some space or choose another folder",
-                  "DISK_FULL");
+                  ErrorReason::DISK_FULL);
     case EFBIG:
       return fail(Code::kResourceExhausted,
                   start + "larger than the limit on file sizes. Raise the limit (ulimit -f)",
-                  "FILE_LIMIT");
+                  ErrorReason::OUTPUT_LIMIT);
     case ENOENT:
     case ENOTDIR:
       return fail(Code::kNotFound,

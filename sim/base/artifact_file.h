@@ -10,7 +10,7 @@
 namespace hydroprint::image {
 
 /// Writes a whole file atomically: to a temporary file in the same folder, which is synced and then
-/// renamed. Errors: kResourceExhausted (reason DISK_FULL, or FILE_LIMIT if the file would exceed
+/// renamed. Errors: kResourceExhausted (reason DISK_FULL, or OUTPUT_LIMIT if the file would exceed
 /// the process's limit on file sizes), kNotFound (no such folder), kPermissionDenied or kInternal.
 /// Leaves no temporary file behind after an error.
 [[nodiscard]] Status write_artifact(const std::filesystem::path& path,

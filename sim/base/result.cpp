@@ -70,9 +70,13 @@ std::string words_of(const Place& place) {
   return fmt::format("dip {}{}{}", place.dip, words.empty() ? "" : ", ", words);
 }
 
+std::string full_message(const Error& error) {
+  return error.field.empty() ? error.message : error.field + ": " + error.message;
+}
+
 ExitStatus exit_status(const Error& error) {
   // Other lack of resources, such as a full disk, counts as bad input.
-  if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;
+  if (error.reason == ErrorReason::MEMORY_LIMIT) return ExitStatus::kFailed;
   switch (error.code) {
     case Code::kCancelled:
       return ExitStatus::kCancelled;

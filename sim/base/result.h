@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/base/error_reason.h"
 #include "sim/base/warning_code.h"
 
 namespace hydroprint {
@@ -34,15 +35,21 @@ enum class Code {
 [[nodiscard]] std::string_view code_name(Code code);
 
 /// A failure: a code for programs, and one sentence for people that names the fault, its place and
-/// the remedy.
+/// the remedy. A field is named apart, because each surface has its own word for it (`--dpi`,
+/// `simulate.dpi`, "Resolution"); see hydroprint/v1/failure.proto.
 struct Error {
   Code code = Code::kInternal;
   std::string message;
-  /// Stable UPPER_SNAKE word for scripts ("ASSET_HASH_MISMATCH"); empty if the code says enough.
-  std::string reason;
-  /// Values from the message for programs, under stable names ("field", "max_bytes").
+  /// For programs; see hydroprint/v1/error_reason.proto. 0 if the code says enough.
+  ErrorReason reason = ErrorReason::ERROR_REASON_UNSPECIFIED;
+  /// Values from the message for programs, under stable names ("max_bytes").
   std::map<std::string, std::string> metadata = {};
+  /// Path of the field at fault ("simulate.dpi"), which the message does not repeat; empty: none.
+  std::string field = {};
 };
+
+/// Returns the message after the field's path, for readers who know fields by their paths.
+[[nodiscard]] std::string full_message(const Error& error);
 
 /// A value or an Error. Functions report all errors this way.
 template <class T>
@@ -53,8 +60,15 @@ using Status = Result<void>;
 
 /// Returns an Error that converts to any Result.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string message,
-                                                std::string reason = {}) {
-  return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason), {}});
+                                                ErrorReason reason = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), reason, {}, {}});
+}
+
+/// Returns an Error about a field. The problem does not name it.
+[[nodiscard]] inline tl::unexpected<Error> fail_field(Code code, std::string field,
+                                                      std::string problem,
+                                                      ErrorReason reason = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(problem), reason, {}, std::move(field)});
 }
 
 /// Places that a warning can be about; see hydroprint/v1/warning.proto.

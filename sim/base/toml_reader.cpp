@@ -78,7 +78,7 @@ void TomlReader::refuse(std::string_view key, const std::string& what) {
       entry == table_->end() ? table_->source() : entry->first.source();
   shared_->error = Error{Code::kInvalidArgument,
                          one_line(place(shared_->path, region) + full(key) + " " + what),
-                         "CONFIG_INVALID",
+                         ErrorReason::CONFIG_INVALID,
                          {}};
 }
 
@@ -216,7 +216,7 @@ Status TomlReader::finish() const {
   return fail(Code::kInvalidArgument,
               one_line(place(shared_->path, unknown->source()) + std::string(unknown->str()) +
                        " is not a known key here. Use " + known),
-              "CONFIG_INVALID");
+              ErrorReason::CONFIG_INVALID);
 }
 
 }  // namespace hydroprint

@@ -84,4 +84,6 @@ std::string one_line(std::string text) {
   return encode_utf8(decode_utf8(text));
 }
 
+std::string valid_utf8(std::string_view text) { return encode_utf8(decode_utf8(text)); }
+
 }  // namespace hydroprint

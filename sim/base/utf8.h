@@ -15,6 +15,9 @@ inline constexpr char32_t kReplacement = 0xFFFD;
 /// Encodes code points as UTF-8; surrogates and numbers above U+10FFFF become U+FFFD.
 [[nodiscard]] std::string encode_utf8(std::u32string_view text);
 
+/// Replaces each malformed sequence and each control character by U+FFFD.
+[[nodiscard]] std::string valid_utf8(std::string_view text);
+
 /// Puts the text on one line of valid UTF-8: control characters, including line ends, become
 /// blanks, and bytes that are not UTF-8 become U+FFFD. For messages that quote untrusted files or
 /// input.

@@ -59,7 +59,7 @@ std::vector<double> error_map(const Task& task, const registration::ObjectPose& 
 
 /// Adds to the error that the gripper may have been taken for part of the object.
 tl::unexpected<Error> without_gripper(const Task& task, Error error) {
-  if (!task.gripper_mm && error.reason != "NO_OBJECT")
+  if (!task.gripper_mm && error.reason != ErrorReason::NO_OBJECT)
     error.message +=
         " (the gripper height is not given, so the gripper counts as part of the object)";
   return tl::unexpected(std::move(error));

@@ -123,7 +123,7 @@ Result<SweptScan> fuse_swept(const SweptTask& task, const Context& context) {
   if (out.mesh.triangles.empty())
     return fail(Code::kFailedPrecondition,
                 "no surface was seen often enough: sweep longer, at a distance of 0.6 to 1.2 m",
-                "NO_SURFACE");
+                ErrorReason::NO_SURFACE);
   return out;
 }
 

@@ -89,8 +89,7 @@ class Fitting {
       if (!options_.drop_outliers || outliers == 0 || round == kMostOutlierRounds) break;
       for (PointResult& p : out_.points) {
         if (p.is_used() && p.is_outlier) {
-          p.left_out =
-              "an outlier: the residual exceeds 4 robust standard deviations (--drop-outliers)";
+          p.left_out = "an outlier: the residual exceeds 4 robust standard deviations";
         }
       }
       HP_RETURN_IF_ERROR(check_enough(out_.points, options_.points_name));
@@ -133,8 +132,7 @@ class Fitting {
     if (ink == free_.end() || dip_.ink.total_mm2() > 0) return;
     out_.undetermined.push_back(
         {"ink_ratio_mm",
-         "without ink, no landing point depends on this parameter. Specify the printed image "
-         "(--ink-image)"});
+         "without ink, no landing point depends on this parameter. Name the printed image"});
     free_.erase(ink);
   }
 
@@ -271,7 +269,7 @@ class Fitting {
       out_.warnings.push_back({WarningCode::OUTLIERS,
                                fmt::format("{} points have residuals above 4 robust "
                                            "standard deviations but are still used; "
-                                           "see residuals.csv, or use --drop-outliers",
+                                           "see residuals.csv, or leave the outliers out",
                                            outliers),
                                {InFile{options_.points_name}}});
     }

@@ -77,7 +77,7 @@ Status check_enough(const std::vector<PointResult>& points, const std::string& n
   }
   return fail(Code::kInvalidArgument,
               what + ". Measure at least 4 points, preferably dozens, spread over the printed part",
-              "TOO_FEW_POINTS");
+              ErrorReason::TOO_FEW_POINTS);
 }
 
 int mark_outliers(std::vector<PointResult>& points, double floor_mm) {

@@ -101,10 +101,10 @@ void warn_about_size(const Model& model, Surface& surface) {
   const auto unit = likely_unit(largest_mm / model.scale, model.path.extension().string());
   warn(surface, model, WarningCode::SMALL_OR_LARGE_OBJECT,
        fmt::format("the largest side is {} mm: {}", three_digits(largest_mm),
-                   unit ? fmt::format("if the file is in {}, give --scale {}, and it is {} mm",
+                   unit ? fmt::format("if the file is in {}, the scale is {}, and it is {} mm",
                                       unit->name, shortest_text(unit->mm),
                                       three_digits(largest_mm / model.scale * unit->mm))
-                        : std::string("check --scale, the millimetres per unit of the model")));
+                        : std::string("check the scale, the millimetres per unit of the model")));
 }
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
@@ -237,8 +237,8 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     return fail(
         Code::kResourceExhausted,
         fmt::format(
-            "{}: subdividing the faces to edges of {} mm would need {}; give a smaller --scale",
-            name, max_edge_mm, subdivided.error().message));
+            "{}: subdividing the faces to edges of {} mm would need {}; use a smaller scale", name,
+            max_edge_mm, subdivided.error().message));
   if (!subdivided) return tl::unexpected(std::move(subdivided).error());
   work = std::move(*subdivided);
   if (work.triangles.size() != before) edges = Edges(work.triangles, work.weld);

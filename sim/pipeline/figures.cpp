@@ -357,12 +357,11 @@ Warnings warnings_of_strain(const DipFigures& figures, const DipOptions& options
                         {OnSurface{}}});
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
-    warnings.push_back(
-        {WarningCode::STRETCH_BEYOND_STOKES,
-         fmt::format("the film is stretched up to {} times; above {} times, "
-                     "Stokes flow alone is not accurate (paper, section 4.4). Use --model sheet",
-                     three_digits(figures.stretch_max), kStokesStretch),
-         {OnSurface{}}});
+    warnings.push_back({WarningCode::STRETCH_BEYOND_STOKES,
+                        fmt::format("the film is stretched up to {} times; above {} times, "
+                                    "Stokes flow alone is not accurate. Use the sheet model",
+                                    three_digits(figures.stretch_max), kStokesStretch),
+                        {OnSurface{}}});
   }
   warn_of_tears(figures, options.profile, warnings);
   warn_of_error(figures, options, warnings);
@@ -398,7 +397,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
 Warnings warnings_of_profile(const DipOptions& options) {
   if (options.film_model != FilmModel::kStokes || options.profile.drag_length_mm <= 0) return {};
   return {{WarningCode::DRAG_IGNORED,
-           "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
+           "Stokes flow ignores water drag (drag_length_mm). Use the sheet model",
            {OfItem{"film profile"}}}};
 }
 

@@ -42,7 +42,10 @@ DipOptions options_of(const PlanOptions& options, std::size_t k) {
 std::string name_of(std::size_t k) { return fmt::format("dip {}", k + 1); }
 
 Error located(Error error, std::size_t k) {
-  error.message = name_of(k) + ": " + error.message;
+  if (error.field.empty())
+    error.message = name_of(k) + ": " + error.message;
+  else
+    error.field = fmt::format("immersions[{}].{}", k, error.field);
   return error;
 }
 

@@ -63,8 +63,9 @@ std::string no_colour_text(const mesh::Model& model) {
   if (!model.not_understood.empty())
     out += "Found, but not understood: " + list_of(model.not_understood) + ". ";
   return out +
-         "Give a picture (--texture, and --project for how it lands) or a paint (--paint), or give "
-         "the model colours or a texture in a 3D editor";
+         "Name a picture, with a projection for how it lands, or a paint, or give the model "
+         "colours "
+         "or a texture in a 3D editor";
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ Result<Solved> solve(const film::Outline& outline, const waterline::Waterline& l
                      const velocity::MeshOptions& options, Status& refusal) {
   Solved out{line.immersion_mm, line.bounds_film, {}};
   auto mesh = velocity::mesh_film(outline, line, options);
-  if (!mesh && mesh.error().reason == velocity::kMeshUnbounded) {
+  if (!mesh && mesh.error().reason == ErrorReason::MESH_UNBOUNDED) {
     refusal = tl::unexpected(std::move(mesh.error()));
     return out;
   }
@@ -110,7 +110,7 @@ Error refusal_of(const waterline::SectionsOff& off, const StokesPass& pass,
                   "the mesh, at triangles {} of the file. Repair the mesh there in a 3D editor",
                   three_digits(off.sections_mm3 / 1000), three_digits(off.columns_mm3 / 1000),
                   off.immersion_mm, place.x(), place.y(), place.z(), fmt::join(faces, ", ")),
-      "SECTIONS_OFF"};
+      ErrorReason::SECTIONS_OFF};
 }
 
 /// Compares the sections with the body's volume. Closed meshes must agree. Lines may pass through

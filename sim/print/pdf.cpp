@@ -256,7 +256,7 @@ Result<std::vector<unsigned char>> encode_pdf(const Document& document, const Co
     describe(pdf, document);
     return written(pdf);
   } catch (const std::bad_alloc&) {
-    return fail(Code::kInternal, "PDF: out of memory. Free some memory", "OUT_OF_MEMORY");
+    return fail(Code::kInternal, "PDF: out of memory. Free some memory", ErrorReason::MEMORY_LIMIT);
   } catch (const std::exception& error) {
     return fail(Code::kInternal,
                 std::string("PDF: cannot be written (") + error.what() + "). Please report this");

@@ -208,10 +208,10 @@ Status check_contact(const waterline::CrossSection& contact, const film::Outline
   std::vector<std::vector<Vector2d>> solid;
   for (const waterline::Loop& loop : contact) solid.push_back(loop.points_mm);
   if (!solid.empty() && waterline::common_area({outline.polygon}, solid) > 0) return {};
-  return fail(Code::kFailedPrecondition,
-              "pose: the object's first contact misses the film " + outline.name +
-                  ". Move the object over the film (translation_mm), or use a larger --film",
-              "CONTACT_MISSES_FILM");
+  return fail_field(Code::kFailedPrecondition, "pose",
+                    "the object's first contact misses the film " + outline.name +
+                        ". Move the object over the film, or use a larger film",
+                    ErrorReason::CONTACT_MISSES_FILM);
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
   if (grid.columns == image.width && grid.rows == image.height) return dpi;
   return fail(
       Code::kInvalidArgument,
-      fmt::format("{}: has {} pixels, but a film image of {} at {} dpi has {}. Give the --film "
-                  "and --dpi of the image",
+      fmt::format("{}: has {} pixels, but a film image of {} at {} dpi has {}. Give the film "
+                  "and the resolution of the image",
                   name, size_text(image.width, image.height), outline.name, dpi,
                   size_text(grid.columns, grid.rows)));
 }

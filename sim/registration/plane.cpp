@@ -83,7 +83,8 @@ Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C) 
   }
   if (static_cast<double>(most) < kLeastShare * static_cast<double>(looked.size()) || most < 3)
     return fail(Code::kFailedPrecondition,
-                "neither water nor table is in view. Aim the camera at the vat", "NO_PLANE");
+                "neither water nor table is in view. Aim the camera at the vat",
+                ErrorReason::NO_PLANE);
   for (int i = 0; i < kRefinements; ++i) best = refined(cloud, best);
   return best;
 }

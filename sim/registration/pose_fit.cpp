@@ -198,7 +198,7 @@ class Fitter {
                   fmt::format("only {} scan points lie near the surface. Check that the surface is "
                               "in the camera's view",
                               out.pairs.size()),
-                  "TOO_FEW_POINTS");
+                  ErrorReason::TOO_FEW_POINTS);
     out.residuals = weighted_residuals(out.pairs, noise);
     out.centre = pose * shape_.centroid();
     out.normals = normal_equations(out.pairs, out.residuals.weights, out.centre, length_mm_);

@@ -34,7 +34,7 @@ Status check_frames(std::span<const DepthFrame> frames) {
         Code::kFailedPrecondition,
         fmt::format("all {} depth frames are identical, so the camera is frozen. Reconnect it",
                     frames.size()),
-        "CAMERA_FROZEN");
+        ErrorReason::CAMERA_FROZEN);
   return {};
 }
 

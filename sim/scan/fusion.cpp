@@ -81,11 +81,11 @@ Status judge(std::size_t pixels, std::size_t valid, std::size_t unsteady) {
   if (static_cast<double>(valid) < kDarkShare * static_cast<double>(pixels))
     return fail(Code::kFailedPrecondition,
                 "the camera sees nothing. Uncover it, or move it to a distance of 0.6 to 1.2 m",
-                "CAMERA_BLACK");
+                ErrorReason::CAMERA_BLACK);
   if (static_cast<double>(unsteady) > kUnsteadyShare * static_cast<double>(valid))
     return fail(Code::kFailedPrecondition,
                 "the camera or the scene moved between frames. Keep both still and scan again",
-                "CAMERA_MOVED");
+                ErrorReason::CAMERA_MOVED);
   return {};
 }
 

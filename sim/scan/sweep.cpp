@@ -25,7 +25,6 @@ constexpr double kDarkShare = 0.02;
 constexpr std::size_t kMostLost = 10;
 constexpr std::size_t kTakeEvery = 3;  ///< all frames are registered, but only every third is fused
 constexpr Volume::Options kToFollow{3, 12, 60000};
-constexpr const char* kLost = "CAMERA_LOST";
 
 Status check(const SweepTask& task) {
   HP_RETURN_IF_ERROR(check_frames(task.frames));
@@ -83,7 +82,7 @@ Result<Eigen::AlignedBox3d> box_of(const DepthFrame& first, const Optics& optics
   if (static_cast<double>(seen) < kDarkShare * static_cast<double>(optics.rays.size()))
     return fail(Code::kFailedPrecondition,
                 "the camera sees nothing. Uncover it, and begin at a distance of 0.6 to 1.2 m",
-                "CAMERA_BLACK");
+                ErrorReason::CAMERA_BLACK);
   const Eigen::Vector3d about = Eigen::Vector3d::Constant(kRoundAbout_mm);
   return Eigen::AlignedBox3d(box.min() - about, box.max() + about);
 }
@@ -132,7 +131,7 @@ Result<Tracked> find_place(const DepthFrame& frame, const SweepTask& task, const
   const auto points = tracking_points(frame, optics);
   const Pose ahead = foreseen(path.X_WC, task.times_s);
   auto found = track(points, task.noise, volume, ahead, context);
-  if (!found && found.error().reason == kLost)
+  if (!found && found.error().reason == ErrorReason::CAMERA_LOST)
     found = track(points, task.noise, volume, path.X_WC.back(), context);
   return found;
 }
@@ -142,7 +141,8 @@ Result<Tracked> find_place(const DepthFrame& frame, const SweepTask& task, const
 Result<double> place(const DepthFrame& frame, const SweepTask& task, const Optics& optics,
                      const Volume& volume, Path& path, const Context& context) {
   const auto found = find_place(frame, task, optics, volume, path, context);
-  if (!found && found.error().reason != kLost) return tl::unexpected(found.error());
+  if (!found && found.error().reason != ErrorReason::CAMERA_LOST)
+    return tl::unexpected(found.error());
   path.X_WC.push_back(found ? found->X_WC : path.X_WC.back());
   path.is_placed.push_back(found.has_value());
   if (is_lost_for_good(path))

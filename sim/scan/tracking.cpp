@@ -101,7 +101,7 @@ double worst_sigma_mm(const Equations& equations) {
 tl::unexpected<Error> lost() {
   return fail(Code::kFailedPrecondition,
               "tracking of the camera failed. Sweep more slowly, and keep the markers in view",
-              "CAMERA_LOST");
+              ErrorReason::CAMERA_LOST);
 }
 
 Pose moved(const Pose& X_WC, const Vector6d& step, const Vector3d& middle_W) {

@@ -97,7 +97,7 @@ Result<Font> Font::open(const std::filesystem::path& file) {
   impl->bytes = std::move(*bytes);
   if (FT_Init_FreeType(&impl->library) != 0) {
     return fail(Code::kInternal, "FreeType cannot start: out of memory. Free some memory",
-                "OUT_OF_MEMORY");
+                ErrorReason::MEMORY_LIMIT);
   }
   if (FT_New_Memory_Face(impl->library, reinterpret_cast<const FT_Byte*>(impl->bytes.data()),
                          static_cast<FT_Long>(impl->bytes.size()), 0, &impl->face) != 0) {

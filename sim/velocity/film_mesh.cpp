@@ -160,7 +160,7 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
                   fmt::format("film mesh at immersion {:.2f} mm: needs more than {} vertices. "
                               "Smooth the model, or dip another part of it",
                               line.immersion_mm, most),
-                  kMeshUnbounded);
+                  ErrorReason::MESH_UNBOUNDED);
     }
     FilmMesh mesh = extract(triangulation, outline);
     mesh.elimination_order = elimination_order(mesh);

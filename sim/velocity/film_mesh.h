@@ -41,12 +41,10 @@ struct MeshOptions {
   double least_mm = 0.1;        ///< smaller features of the waterline are smoothed
 };
 
-inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";  ///< error reason of mesh_film()
-
 /// Meshes the film between its edge and the waterline. Uses a constrained Delaunay triangulation,
 /// refined to angles of at least 30 degrees (where the boundary permits) and to the sizing field.
 /// Neither walls nor gaps below 0.1 mm, whose curves may also touch or cross, refine it further.
-/// @return kInvalidArgument, kMeshUnbounded if the mesh needs far more vertices than the length of
+/// @return kInvalidArgument, MESH_UNBOUNDED if the mesh needs far more vertices than the length of
 ///         the waterline and the coarsest size imply
 [[nodiscard]] Result<FilmMesh> mesh_film(const film::Outline& outline,
                                          const waterline::Waterline& line,

@@ -90,12 +90,12 @@ Status check_first_contact(const Body& body, const film::Outline& outline, const
   std::vector<std::vector<Eigen::Vector2d>> solid;
   for (const Loop& loop : first.section) solid.push_back(loop.points_mm);
   if (common_area({outline.polygon}, solid) > 0) return {};
-  return fail(
-      Code::kFailedPrecondition,
-      fmt::format("pose: the object's lowest point, at ({:.1f}, {:.1f}) mm, misses the film {}. "
-                  "Move the object over the film (translation_mm), or use a larger film",
+  return fail_field(
+      Code::kFailedPrecondition, "pose",
+      fmt::format("the object's lowest point, at ({:.1f}, {:.1f}) mm, misses the film {}. Move the "
+                  "object over the film, or use a larger film",
                   touch.x(), touch.y(), outline.name),
-      "CONTACT_MISSES_FILM");
+      ErrorReason::CONTACT_MISSES_FILM);
 }
 
 using Curves = std::vector<std::vector<Eigen::Vector2d>>;

@@ -47,10 +47,11 @@ void add_path(CLI::App& app, const std::string& flag, std::filesystem::path& pat
       ->type_name(type);
 }
 
-CommandLine refuse(RunOptions run, ExitStatus status, Error error) {
+CommandLine refuse(const RunFlags& run, ExitStatus status, Error error) {
   CommandLine out;
   out.action = CommandLine::Action::kRefuse;
-  out.run = std::move(run);
+  out.run = run.options;
+  out.spec_file = run.spec;
   out.status = status;
   out.error = std::move(error);
   return out;
@@ -74,7 +75,6 @@ class VerbParser {
   [[nodiscard]] Status create_progress_file() const;
   [[nodiscard]] std::filesystem::path inputs() const;
   [[nodiscard]] int threads() const;
-  [[nodiscard]] Error located(Error error) const;
   [[nodiscard]] CommandLine refuse_options(const Error& error) const;
 
   Verb verb_;
@@ -106,7 +106,6 @@ void VerbParser::add_run_flags() {
     add_path(app_, "--out", options.out,
              "Artifact folder to create; replaces the folder of an earlier run", "DIR");
     app_.get_option("--out")->required();
-    app_.add_flag("--json", options.json, "Print the summary or error as one JSON object");
     app_.add_option("--progress-fd", options.progress_fd,
                     "File descriptor for progress, one JSON object per line")
         ->type_name("N");
@@ -114,6 +113,7 @@ void VerbParser::add_run_flags() {
              "File to which the same lines are appended, at most four times a second", "FILE");
     app_.get_option("--progress-file")->excludes("--progress-fd");
   }
+  app_.add_flag("--json", options.json, "Print the summary or error as one JSON object");
   flags::add_field(app_, *spec_, *spec_->GetDescriptor()->FindFieldByName("threads"))
       ->description("Number of threads; default: all cores");
 }
@@ -191,41 +191,30 @@ int VerbParser::threads() const {
   return reflection.HasField(*spec_, &field) ? reflection.GetInt32(*spec_, &field) : all_cores();
 }
 
-/// Adds the flag to the error's message or, for a spec, the field and, without `--json`, the name
-/// of the spec file.
-Error VerbParser::located(Error error) const {
-  const bool is_in_spec = run_.spec && error.metadata.contains("field");
-  error = name_field(std::move(error), !run_.spec);
-  if (is_in_spec && !run_.options.json) error.message.insert(0, *run_.spec + ": ");
-  return error;
-}
-
 /// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a spec
 /// or in a file that an option names (metadata "file").
 CommandLine VerbParser::refuse_options(const Error& error) const {
   const bool is_usage =
       !run_.spec && error.code != Code::kOutOfRange && !error.metadata.contains("file");
-  return refuse(run_.options, is_usage ? ExitStatus::kUsage : ExitStatus::kBadInput,
-                located(error));
+  return refuse(run_, is_usage ? ExitStatus::kUsage : ExitStatus::kBadInput, error);
 }
 
 CommandLine VerbParser::settle() {
   if (std::string problem = usage_problem(); !problem.empty()) {
-    return refuse(run_.options, ExitStatus::kUsage,
-                  {Code::kInvalidArgument, std::move(problem), {}, {}});
+    return refuse(run_, ExitStatus::kUsage, {Code::kInvalidArgument, std::move(problem)});
   }
   if (const Status read = read_files(); !read) {
-    return refuse(run_.options, exit_status(read.error()), located(read.error()));
+    return refuse(run_, exit_status(read.error()), read.error());
   }
   auto task = plan();
   if (!task) return refuse_options(task.error());
   if (Status made = create_progress_file(); !made) {
-    return refuse(run_.options, ExitStatus::kUsage, std::move(made).error());
+    return refuse(run_, ExitStatus::kUsage, std::move(made).error());
   }
   CommandLine out;
   out.run = run_.options;
   out.run.threads = threads();
-  out.uses_flags = !run_.spec;
+  out.spec_file = run_.spec;
   out.task = std::move(*task);
   return out;
 }
@@ -241,9 +230,9 @@ CommandLine print_version(bool json) {
   if (!json) return print("hydroprint-worker " HYDROPRINT_VERSION "\n");
   Result<std::string> id = build_id();
   if (!id) {
-    RunOptions options;
-    options.json = true;
-    return refuse(options, exit_status(id.error()), std::move(id).error());
+    RunFlags run;
+    run.options.json = true;
+    return refuse(run, exit_status(id.error()), std::move(id).error());
   }
   const nlohmann::ordered_json line = {{"version", HYDROPRINT_VERSION},
                                        {"build_id", std::move(*id)}};
@@ -281,8 +270,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     // CLI11 stops at the first error, which may come before --json.
     run.options.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
-    return refuse(run.options, ExitStatus::kUsage,
-                  {Code::kInvalidArgument, std::string(error.what()) + ". See --help", {}, {}});
+    return refuse(run, ExitStatus::kUsage,
+                  {Code::kInvalidArgument, std::string(error.what()) + ". See --help"});
   }
   const auto chosen = std::find_if(parsers.begin(), parsers.end(),
                                    [](const auto& parser) { return parser->is_chosen(); });

@@ -13,10 +13,10 @@ struct CommandLine {
   enum class Action { kRun, kPrint, kRefuse };
   Action action = Action::kRun;
   RunOptions run;
-  std::unique_ptr<Task> task;  ///< for kRun
-  bool uses_flags = true;      ///< false: the options came from `--spec`
-  std::string text;            ///< for kPrint: help or version
-  Error error;                 ///< for kRefuse
+  std::unique_ptr<Task> task;            ///< for kRun
+  std::optional<std::string> spec_file;  ///< nullopt: the options came from flags
+  std::string text;                      ///< for kPrint: help or version
+  Error error;                           ///< for kRefuse
   ExitStatus status = ExitStatus::kDone;
 };
 

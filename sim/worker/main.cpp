@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,13 +41,13 @@ void keep_freed_memory() {
   ::mallopt(M_TRIM_THRESHOLD, kMany);
 }
 
-/// With `--json`, reports OUT_OF_MEMORY on stdout and ends the program if memory runs out in code
+/// With `--json`, reports MEMORY_LIMIT on stdout and ends the program if memory runs out in code
 /// that must not throw. Other exceptions abort the program as usual.
 [[noreturn]] void on_terminate() {
   try {
     if (std::current_exception()) std::rethrow_exception(std::current_exception());
   } catch (const std::bad_alloc&) {
-    constexpr std::string_view kAnswer = "{\"error\":{\"reason\":\"OUT_OF_MEMORY\"}}\n";
+    constexpr std::string_view kAnswer = "{\"error\":{\"reason\":\"MEMORY_LIMIT\"}}\n";
     const bool written = ::write(STDOUT_FILENO, kAnswer.data(), kAnswer.size()) > 0;
     if (written) ::_exit(static_cast<int>(ExitStatus::kFailed));
   } catch (...) {
@@ -63,14 +64,23 @@ Result<Finished> run(const CommandLine& command, Termination& termination, int s
     return fail(Code::kInternal,
                 fmt::format("{}: out of memory. Use {} or more memory", subject,
                             command.task->memory_tip()),
-                "OUT_OF_MEMORY");
+                ErrorReason::MEMORY_LIMIT);
   } catch (const std::exception& error) {
     return fail(Code::kInternal, subject + ": " + error.what() + ". Please report this");
   }
 }
 
-int refuse(const Error& error, ExitStatus status, bool json) {
-  print_error(error, status, json);
+/// Returns the error's message after its field, as the user wrote it: "--dpi", or a field of a
+/// spec.
+std::string words_of(const Error& error, const std::optional<std::string>& spec_file) {
+  if (error.field.empty()) return error.message;
+  if (spec_file) return fmt::format("{}: {}", *spec_file, full_message(error));
+  return fmt::format("{}: {}", flag_of(error.field), error.message);
+}
+
+int refuse(const Error& error, ExitStatus status, const CommandLine& command) {
+  if (command.run.json) print_failure(error, status);
+  print_error("hydroprint-worker", words_of(error, command.spec_file));
   return static_cast<int>(status);
 }
 
@@ -93,22 +103,19 @@ int main_of(int argc, char** argv) {
       std::fputs(command.text.c_str(), stdout);
       return 0;
     case CommandLine::Action::kRefuse:
-      return refuse(command.error, command.status, json);
+      return refuse(command.error, command.status, command);
     case CommandLine::Action::kRun:
       break;
   }
   const QuietStderr quiet;
-  Termination termination([&quiet, json] {
+  Termination termination([&quiet, &command] {
     quiet.restore();
-    print_error({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
+    refuse({Code::kCancelled, "cancelled"}, ExitStatus::kCancelled, command);
   });
   const Result<Finished> finished = run(command, termination, quiet.own());
   termination.decide();
   quiet.restore();
-  if (!finished) {
-    return refuse(name_field(finished.error(), command.uses_flags), exit_status(finished.error()),
-                  json);
-  }
+  if (!finished) return refuse(finished.error(), exit_status(finished.error()), command);
   print_result(*finished, json);
   return 0;
 }

@@ -161,7 +161,7 @@ TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
     if (verb == "predict") flags.insert(flags.end(), {"--film-image", film});
     Arguments stokes = flags;
     stokes.insert(stokes.end(), {"--model", "stokes"});
-    expect_error(stokes, 3, verb + ".inertia: ");
+    expect_error(stokes, 3, "--inertia: ");
     flags.insert(flags.end(), {"--out", out().string()});
     EXPECT_EQ(client_json(flags).at(verb).at("inertia"), true);
     EXPECT_EQ(given_spec(content(out() / "report.json")).at("inertia"), true);
@@ -427,8 +427,7 @@ TEST_F(Cli, ValidateOnlyRefusesWhatTheWorkerWouldRefuse) {
   EXPECT_EQ(validate({"A3"}).status, 0);
   const Outcome ended = validate({"A9"});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_NE(ended.err.find("simulate.film: film 'A9' is not a known size or shape"),
-            std::string::npos)
+  EXPECT_NE(ended.err.find("--film: film 'A9' is not a known size or shape"), std::string::npos)
       << ended.err;
 }
 
@@ -439,10 +438,10 @@ TEST_F(Cli, EachWrongFieldHasItsOwnLine) {
   EXPECT_EQ(ended.status, 3);
   EXPECT_EQ(ended.err,
             "hydroprint: the request has several wrong fields:\n"
-            "  print_image.paper: paper 'A9': unknown size. Use A4, A3, letter or WIDTHxHEIGHT "
+            "  --paper: paper 'A9': unknown size. Use A4, A3, letter or WIDTHxHEIGHT "
             "(mm)\n"
-            "  print_image.bar_mm: must be from 0 to 2000 mm\n"
-            "  print_image.formats: must be pdf, png or tiff, not \"svg\"\n");
+            "  --bar-mm: must be from 0 to 2000 mm\n"
+            "  --formats: must be pdf, png or tiff, not \"svg\"\n");
 }
 
 TEST_F(Cli, HelpShowsRangesAndDefaults) {

@@ -63,11 +63,11 @@ bool is_refusal(const Request& request, const Bytes& reply) {
 void check_error(const Request& request, const Bytes& reply, const Error& error) {
   HP_EXPECT(error.message.find('\n') == std::string::npos);
   if (!is_refusal(request, reply)) {
-    HP_EXPECT(error.reason == "REPLY_INVALID" && error.code == Code::kDataLoss);
+    HP_EXPECT(error.reason == ErrorReason::REPLY_INVALID && error.code == Code::kDataLoss);
     return;
   }
   const bool busy = reply[2] == 5 || reply[2] == 6;
-  HP_EXPECT(error.reason == (busy ? "DRIVE_BUSY" : "DRIVE_REFUSED"));
+  HP_EXPECT(error.reason == (busy ? ErrorReason::DRIVE_BUSY : ErrorReason::DRIVE_REFUSED));
   HP_EXPECT(error.metadata.at("exception") == std::to_string(reply[2]));
 }
 
@@ -211,7 +211,7 @@ T take(Input& input) {
 void check_value(const Format& format, double value) {
   const auto words = drive::encode(format, value);
   if (!words) {
-    HP_EXPECT(words.error().reason == "LIMIT_EXCEEDED");
+    HP_EXPECT(words.error().reason == ErrorReason::LIMIT_EXCEEDED);
     return;
   }
   HP_EXPECT(words->size() == static_cast<std::size_t>(format.words));

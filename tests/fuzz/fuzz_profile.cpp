@@ -39,7 +39,7 @@ void check_commands(const DriveProfile& profile) {
     const auto requests = drive::requests_for(profile, static_cast<drive::Command>(i), 10,
                                               profile.max_speed_mm_per_s);
     if (!requests) {
-      HP_EXPECT(requests.error().reason == "LIMIT_EXCEEDED");
+      HP_EXPECT(requests.error().reason == ErrorReason::LIMIT_EXCEEDED);
       continue;
     }
     for (const drive::Request& request : *requests) {

@@ -22,7 +22,7 @@ void try_body(std::string_view text) {
   const Status status = rest::read_json(text, message);
   if (!status) {
     HP_EXPECT(status.error().code == Code::kInvalidArgument);
-    HP_EXPECT(status.error().reason == "JSON_INVALID");
+    HP_EXPECT(status.error().reason == ErrorReason::JSON_INVALID);
     HP_EXPECT(status.error().message.find('\n') == std::string::npos);
     HP_EXPECT(rest::not_utf8_at(status.error().message) == std::string::npos);
     return;

@@ -13,6 +13,7 @@ import {
   takeDipsOfJob,
   type Inputs,
 } from '../src/screens/new_print/draft';
+import { markOf } from './marks';
 import { shapeOf } from './shapes';
 
 const kHalf = Math.SQRT1_2;
@@ -49,6 +50,8 @@ async function open(job: Partial<Job>): Promise<void> {
 const inputs: Inputs = { mesh, texture, extraFiles: [] };
 const made = () => jobOf(draft.value, inputs, centre_mm.value);
 
+const message = 'the film image would have too many pixels. Use at most 900 dpi for this film';
+
 beforeEach(clear);
 
 /** Numbers to 9 digits, because poses are converted back and forth. */
@@ -81,6 +84,15 @@ test('a simulation is run again with its pose and its depth', async () => {
   await open({ simulate: { mesh, texture, extraFiles: [], scale: 10, ...dip } } as unknown as Job);
   expect(rounded(made().simulate)).toMatchObject(rounded(dip));
   expect(made().plan).toBeUndefined();
+});
+
+test('the field for which a job failed is marked until another draft begins', async () => {
+  const error = { code: 'OUT_OF_RANGE', reason: 'INPUT_REFUSED', field: 'simulate.dpi', message };
+  await open({ simulate: { mesh, extraFiles: [], dpi: 2400 }, error } as unknown as Job);
+  expect(draft.value.dpi).toBe(2400);
+  expect(markOf({ name: 'dpi' })).toBe(`${message}.`);
+  clear();
+  expect(markOf({ name: 'dpi' })).toBeUndefined();
 });
 
 test('other jobs are refused with a remedy', async () => {

@@ -11,6 +11,7 @@ export class TinyNode {
   // Preact takes the names of events from the node's properties.
   readonly onfocus = null;
   readonly oninput = null;
+  readonly onchange = null;
   readonly onblur = null;
   readonly onkeydown = null;
   readonly onclick = null;
@@ -100,6 +101,10 @@ export class TinyNode {
       if (found) return found;
     }
     return undefined;
+  }
+
+  closest(name: string): TinyNode | null {
+    return this.localName === name ? this : (this.parentNode?.closest(name) ?? null);
   }
 
   get text(): string {

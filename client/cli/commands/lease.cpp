@@ -43,12 +43,13 @@ Result<std::string> our_lease(const Program& program) {
               lease_file(program.server()).string() +
                   ": no lease is stored in this file; acquire a lease with 'hydroprint rig lease "
                   "acquire --purpose ...'",
-              "LEASE_REQUIRED");
+              ErrorReason::LEASE_REQUIRED);
 }
 
 Status show_lease(Program& program) {
   const auto lease = client::get_lease(program.daemon());
-  if (!lease && lease.error().reason != "LEASE_NOT_FOUND") return tl::unexpected(lease.error());
+  if (!lease && lease.error().reason != ErrorReason::LEASE_NOT_FOUND)
+    return tl::unexpected(lease.error());
   if (lease)
     print_result(program, *lease);
   else if (program.json())

@@ -11,14 +11,9 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/jobs.h"
-#include "google/rpc/code.pb.h"
 
 namespace hydroprint::cli {
 namespace {
-
-std::string error_code_name(const v1::Job& job) {
-  return google::rpc::Code_Name(static_cast<google::rpc::Code>(job.error().code()));
-}
 
 Status show(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const v1::Job job, client::get_job(program.daemon(), name));
@@ -27,9 +22,7 @@ Status show(Program& program, const std::string& name) {
     return {};
   }
   HP_ASSIGN_OR_RETURN(const auto list, client::list_artifacts(program.daemon(), name));
-  Json tree = tree_of(job);
-  if (job.has_error()) tree["error"]["code"] = error_code_name(job);
-  print_tree(tree);
+  print_tree(tree_of(job));
   for (const v1::Artifact& artifact : list.artifacts())
     std::cout << fmt::format("{:<20}{}  {}\n", "artifact", client::file_name(artifact),
                              format_bytes(artifact.size_bytes()));

@@ -38,8 +38,9 @@ Json to_json(const pb::Message& message) { return Json::parse(json_text(message)
 
 Json to_json(const Error& error) {
   Json json{{"code", code_name(error.code)}};
-  if (!error.reason.empty()) json["reason"] = error.reason;
+  if (error.reason != ErrorReason{}) json["reason"] = name_of(error.reason);
   json["message"] = error.message;
+  if (!error.field.empty()) json["field"] = error.field;
   if (!error.metadata.empty()) json["metadata"] = error.metadata;
   return json;
 }

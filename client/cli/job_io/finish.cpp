@@ -54,7 +54,8 @@ Status finish_job(Program& program, const v1::Job& job, const FinishOptions& opt
 Status tell_warnings(Program& program, const std::string& job) {
   const auto report = client::job_report(program.daemon(), job);
   if (!report) {  // the job succeeded all the same
-    const bool has_none = report.error().reason.starts_with("ARTIFACT_");
+    const bool has_none = report.error().reason == ErrorReason::ARTIFACT_NOT_FOUND ||
+                          report.error().reason == ErrorReason::ARTIFACT_DAMAGED;
     return has_none ? Status() : tl::unexpected(report.error());
   }
   for (const v1::Warning& warning : run_of(*report).warnings())

@@ -82,8 +82,9 @@ Error why(const v1::Job& job) {
   const bool is_bad_input = job.error().code() == google::rpc::INVALID_ARGUMENT;
   Error why{is_bad_input ? Code::kInvalidArgument : Code::kInternal,
             job.name() + " failed: " + job.error().message(),
-            job.error().reason(),
-            {{"job", job.name()}}};
+            static_cast<ErrorReason>(job.error().reason()),
+            {{"job", job.name()}},
+            job.error().field()};
   if (job.state() == v1::Job::CANCELLED)
     why = {Code::kCancelled, job.name() + " was cancelled", {}};
   if (job.state() == v1::Job::INTERRUPTED)

@@ -75,6 +75,13 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& wo
                      similar.empty() ? "" : fmt::format("; did you mean '{}'?", similar));
 }
 
+const CLI::App& chosen_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  for (auto chosen = app.get_subcommands(); !chosen.empty(); chosen = command->get_subcommands())
+    command = chosen.front();
+  return *command;
+}
+
 }  // namespace
 
 std::string full_name(const CLI::App& app) {
@@ -86,12 +93,17 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   const bool is_unknown =
       code == CLI::ExitCodes::ExtrasError || code == CLI::ExitCodes::RequiredError;
   const auto words = is_unknown ? app->remaining(true) : std::vector<std::string>();
-  for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = app->get_subcommands())
-    app = chosen.front();
+  app = &chosen_command(*app);
   std::string what = unknown_word(*app, words);
   if (what.empty()) what = error.what();
   const char* const link = what.ends_with("?") ? " See " : "; see ";
   return fmt::format("hydroprint: {}{}{} --help\n", printable(what), link, full_name(*app));
+}
+
+std::string word_of_field(const CLI::App& app, const std::string& field) {
+  std::string flag = "--" + field.substr(field.rfind('.') + 1);
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return chosen_command(app).get_option_no_throw(flag) == nullptr ? field : flag;
 }
 
 }  // namespace hydroprint::cli

@@ -12,4 +12,8 @@ namespace hydroprint::cli {
 /// that exists.
 [[nodiscard]] std::string usage_error(const CLI::App* app, const CLI::Error& error);
 
+/// Returns the flag of the chosen command for a field of a request: "--dpi" for "simulate.dpi"; the
+/// path itself if there is no such flag.
+[[nodiscard]] std::string word_of_field(const CLI::App& app, const std::string& field);
+
 }  // namespace hydroprint::cli

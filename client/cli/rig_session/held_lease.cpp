@@ -52,7 +52,7 @@ std::chrono::seconds time_to_renew_to(const v1::Lease& lease) {
 }
 
 Error none_is_kept(Program& program) {
-  Error error{Code::kFailedPrecondition, "", "LEASE_REQUIRED"};
+  Error error{Code::kFailedPrecondition, "", ErrorReason::LEASE_REQUIRED};
   if (const auto lease = client::get_lease(program.daemon())) error.metadata = metadata_of(*lease);
   return error;
 }
@@ -125,12 +125,12 @@ void add_lease_flag(CLI::App& command, std::string& purpose) {
 
 Error in_our_words(Error error) {
   const std::string who = holder_of(error);
-  if (error.reason == "LEASE_HELD")
+  if (error.reason == ErrorReason::LEASE_HELD)
     error.message = fmt::format(
         "the rig's lease is taken{}{}; ask the holder, or end the lease with 'hydroprint rig lease "
         "break --reason ...'",
         who.empty() ? "" : ": ", who);
-  if (error.reason == "LEASE_REQUIRED")
+  if (error.reason == ErrorReason::LEASE_REQUIRED)
     error.message =
         fmt::format("commanding the rig needs its lease, which you do not hold{}",
                     who.empty() ? "; acquire it with 'hydroprint rig lease acquire --purpose ...'"

@@ -96,7 +96,7 @@ Status jog(Program& program, const JogOptions& options) {
   // was released. A motion in progress may be this jog, which somebody else has stopped.
   const bool lost = !jogged && jogged.error().code == Code::kUnavailable;
   const bool refused = !jogged && !cancelled && !lost;
-  if (refused && jogged.error().reason != "MOTION_IN_PROGRESS") return jogged;
+  if (refused && jogged.error().reason != ErrorReason::MOTION_IN_PROGRESS) return jogged;
   const bool is_stopped = refused || !options.time_s;
   const auto rig = is_stopped ? wait_for_rest(program, alarm) : stop_and_wait(program, alarm);
   if (rig) HP_RETURN_IF_ERROR(stop_obeyed(*rig));

@@ -16,7 +16,7 @@ constexpr double kMost_mm_per_s = 100;  // the rig enforces its own limit and re
 // Returns whether a refusal is temporary: jogging in the other direction is possible, or a motion
 // has to end first.
 bool passes(const Error& error) {
-  return error.code == Code::kAborted || error.reason == "LIMIT_EXCEEDED";
+  return error.code == Code::kAborted || error.reason == ErrorReason::LIMIT_EXCEEDED;
 }
 
 bool may_have_moved(const Error& error) {

@@ -49,10 +49,11 @@ Status judge(const v1::Rig& rig, std::uint64_t number) {
   if (motion.outcome() == v1::Motion::DONE) return {};
   if (motion.outcome() == v1::Motion::STOPPED)
     return fail(Code::kAborted, "the axis was stopped " + position(rig));
-  return fail(Code::kInternal,
-              fmt::format("the motion failed {}: {}", position(rig),
-                          rig.trouble().empty() ? motion.cause() : rig.trouble()),
-              motion.cause());
+  return tl::unexpected(Error{Code::kInternal,
+                              fmt::format("the motion failed {}: {}", position(rig),
+                                          rig.trouble().empty() ? motion.cause() : rig.trouble()),
+                              ErrorReason::RIG_FAULTED,
+                              {{"cause", motion.cause()}}});
 }
 
 Error stopped_on_request(const Program& program, StopAlarm& alarm) {

@@ -21,7 +21,10 @@ constexpr char kClearLine[] = "\r\x1b[K";  // there may be a live line
 
 Status stop_obeyed(const v1::Rig& rig) {
   if (rig.cause() != kCause) return {};
-  return fail(Code::kInternal, rig.trouble().empty() ? kWords : printable(rig.trouble()), kCause);
+  return tl::unexpected(Error{Code::kInternal,
+                              rig.trouble().empty() ? kWords : printable(rig.trouble()),
+                              ErrorReason::RIG_FAULTED,
+                              {{"cause", kCause}}});
 }
 
 void StopAlarm::look(const v1::Rig& rig) {

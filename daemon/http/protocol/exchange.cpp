@@ -22,7 +22,7 @@ milliseconds left_until(SteadyClock::time_point end) {
   return std::max(left, milliseconds(1));
 }
 
-Error client_left() { return {Code::kCancelled, "the client disconnected", "", {}}; }
+Error client_left() { return {Code::kCancelled, "the client disconnected"}; }
 
 std::string chunk_of(std::string_view bytes) {
   std::array<char, 20> size{};
@@ -106,14 +106,14 @@ Task<Result<std::string>> Exchange::read_body_piece() {
           Code::kInvalidArgument,
           "the framing of the request body is not valid HTTP/1.1; check Content-Length or "
           "the chunk sizes",
-          "REQUEST_MALFORMED");
+          ErrorReason::REQUEST_MALFORMED);
     }
     const Socket::ReadResult got = co_await read_more(limits_.body_time);
     if (got.bytes > 0) continue;
     break_off();
     if (!got.timed_out) co_return tl::unexpected(client_left());
     co_return fail(Code::kCancelled, "the request body did not arrive in time; send it again",
-                   "REQUEST_TIMED_OUT");
+                   ErrorReason::REQUEST_TIMED_OUT);
   }
 }
 
@@ -124,7 +124,7 @@ Task<Result<std::string>> Exchange::read_body() {
         Code::kOutOfRange,
         fmt::format("the request body is longer than {} bytes; upload files with POST /v1/uploads",
                     limits_.body_bytes),
-        "BODY_TOO_LARGE");
+        ErrorReason::BODY_TOO_LARGE);
     error.value().metadata["max_bytes"] = std::to_string(limits_.body_bytes);
     return error;
   };

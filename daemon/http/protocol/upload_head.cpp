@@ -17,12 +17,9 @@ Result<std::int64_t> upload_offset(const HeaderFields& fields) {
   const auto parsed = std::from_chars(text.data(), text.data() + text.size(), offset);
   const bool is_number = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
   if (is_number && offset >= 0 && fields.count(kName) == 1) return offset;
-  auto error = fail(
-      Code::kInvalidArgument,
-      "the header Upload-Offset must state the offset of these bytes; a HEAD request returns it",
-      "SPEC_INVALID");
-  error.value().metadata["field"] = kName;
-  return error;
+  return fail_field(Code::kInvalidArgument, kName,
+                    "this header must state the offset of these bytes; a HEAD request returns it",
+                    ErrorReason::SPEC_INVALID);
 }
 
 }  // namespace hydroprint::http

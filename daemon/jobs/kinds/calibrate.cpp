@@ -24,7 +24,7 @@ Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
     return tl::unexpected(Error{Code::kFailedPrecondition,
                                 "calibrate.camera_calibration: " + found.error().message +
                                     "; name another calibration, or calibrate the camera",
-                                "CALIBRATION_MISSING",
+                                ErrorReason::CALIBRATION_MISSING,
                                 {{"calibration", spec.camera_calibration()}}});
   }
   HP_RETURN_IF_ERROR(found);

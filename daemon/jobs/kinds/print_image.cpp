@@ -36,7 +36,8 @@ class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
     const auto image = sources.jobs.artifact(id, kFilmImage);
     if (!image) {
       return fail(Code::kFailedPrecondition,
-                  job_name(id) + " has no film.png; simulate with all artifacts", "STATE_FORBIDS");
+                  job_name(id) + " has no film.png; simulate with all artifacts",
+                  ErrorReason::STATE_FORBIDS);
     }
     // A separate folder prevents collisions with the simulation's files.
     HP_ASSIGN_OR_RETURN(*spec.mutable_film_image(),

@@ -19,7 +19,7 @@ Result<Asset> select_asset(Database& database, const std::string& sha256) {
 
 tl::unexpected<Error> asset_not_found(const std::string& sha256) {
   return fail(Code::kNotFound, "assets/" + sha256 + " does not exist; upload the file",
-              "ASSET_NOT_FOUND");
+              ErrorReason::ASSET_NOT_FOUND);
 }
 
 Status insert_asset(Database& database, const Asset& asset, std::int64_t now_ms) {

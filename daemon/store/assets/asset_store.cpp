@@ -25,7 +25,7 @@ Status check_is_not_used_by(Database& database, const std::string& sha256,
   return fail(Code::kFailedPrecondition,
               fmt::format("assets/{}: {} uses this file; delete that job first", sha256,
                           job_name(jobs.front())),
-              "STATE_FORBIDS");
+              ErrorReason::STATE_FORBIDS);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
       return fail(Code::kFailedPrecondition,
                   fmt::format("assets/{} is needed by {}; cancel that job or wait until it ends",
                               sha256, job_name(jobs.front())),
-                  "STATE_FORBIDS");
+                  ErrorReason::STATE_FORBIDS);
     }
     return database_.run("DELETE FROM assets WHERE sha256=?", {sha256});
   });

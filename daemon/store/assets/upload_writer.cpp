@@ -24,7 +24,7 @@ Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
     auto error = fail(
         Code::kOutOfRange,
         fmt::format("offset: {} is not the end of the upload; continue at {}", offset, expected),
-        "OFFSET_MISMATCH");
+        ErrorReason::OFFSET_MISMATCH);
     error.value().metadata["expected_offset"] = fmt::to_string(expected);
     return error;
   }
@@ -39,7 +39,7 @@ Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
 }
 
 Error UploadWriter::give_up_if_full(Error error) {
-  if (error.reason == "DISK_FULL" || error.reason == "QUOTA_EXCEEDED") {
+  if (error.reason == ErrorReason::DISK_FULL || error.reason == ErrorReason::QUOTA_EXCEEDED) {
     file_.reset();  // an open file would keep its space
     uploads_.give_up(upload_);
   }
@@ -64,7 +64,7 @@ Result<AssetOrUpload> UploadWriter::verify() {
       fail(Code::kInvalidArgument,
            fmt::format("the bytes have the hash {}, not the announced {}; start the upload again",
                        hash, upload_.sha256),
-           "ASSET_HASH_MISMATCH");
+           ErrorReason::ASSET_HASH_MISMATCH);
   error.value().metadata["sha256"] = hash;
   return error;
 }

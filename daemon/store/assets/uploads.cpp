@@ -18,7 +18,7 @@ tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
                     fmt::format("the file has more than {} bytes; do not exceed the announced size "
                                 "or assets.max_mib",
                                 max_bytes),
-                    "ASSET_TOO_LARGE");
+                    ErrorReason::ASSET_TOO_LARGE);
   error.value().metadata["max_bytes"] = fmt::to_string(max_bytes);
   return error;
 }
@@ -54,7 +54,8 @@ Result<AssetOrUpload> Uploads::start(const Upload& wanted, const AssetUser& user
                         select_numbers(database_, "SELECT count(*) FROM uploads", {}));
     if (open.front() >= options_.max_open) {
       return fail(Code::kResourceExhausted,
-                  "too many uploads are open; finish some, or try again later", "UPLOADS_FULL");
+                  "too many uploads are open; finish some, or try again later",
+                  ErrorReason::UPLOADS_FULL);
     }
     id = make_token();
     HP_RETURN_IF_ERROR(database_.run("INSERT INTO uploads VALUES (?,?,?,?,?,?)",
@@ -93,7 +94,7 @@ Result<Upload> Uploads::get(const std::string& id, const std::string& owner) {
   if (upload.id.empty()) {
     return fail(Code::kNotFound,
                 "uploads/" + id + " does not exist, or has expired; start the upload again",
-                "UPLOAD_NOT_FOUND");
+                ErrorReason::UPLOAD_NOT_FOUND);
   }
   upload.received_bytes = std::min(size_on_disk(layout_.upload(id)), upload.size_bytes);
   return upload;
@@ -104,7 +105,7 @@ Status Uploads::claim(const std::string& id) {
   if (busy_.insert(id).second) return {};
   return fail(Code::kAborted,
               "uploads/" + id + ": another call is writing to this upload; wait until it ends",
-              "UPLOAD_BUSY");
+              ErrorReason::UPLOAD_BUSY);
 }
 
 void Uploads::release(const std::string& id) {

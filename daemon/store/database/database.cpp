@@ -28,12 +28,12 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
   if (disk_is_full(db)) {
     return fail(Code::kResourceExhausted,
                 "the daemon's disk is full; delete jobs or assets, or free disk space",
-                "DISK_FULL");
+                ErrorReason::DISK_FULL);
   }
   return fail(Code::kInternal,
               std::string("the job database cannot be used: ") + sqlite3_errmsg(db) +
                   "; check the state folder's disk and permissions",
-              "STORE_FAILED");
+              ErrorReason::STORE_FAILED);
 }
 
 // Copies the write-ahead log to the database, so that the log starts again and does not need to
@@ -143,7 +143,7 @@ Status Database::transaction(const std::function<Status()>& body) {
   if (status) status = run("COMMIT");
   // A failed COMMIT may leave the transaction open; some errors have already rolled it back.
   if (!status && sqlite3_get_autocommit(impl_->db) == 0) (void)run("ROLLBACK");
-  if (!status && status.error().reason == "DISK_FULL") empty_log(impl_->db);
+  if (!status && status.error().reason == ErrorReason::DISK_FULL) empty_log(impl_->db);
   return status;
 }
 

@@ -133,7 +133,7 @@ Status check_build(const std::filesystem::path& path) {
               fmt::format("{}: was made by another build of hydroprint; use that build, or set the "
                           "state folder aside (rename {}) and start with an empty one",
                           path.string(), path.parent_path().string()),
-              "STORE_DIFFERS");
+              ErrorReason::STORE_DIFFERS);
 }
 
 Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "sim/base/error_reason.h"
+
 namespace hydroprint::daemon::slurm {
 namespace {
 
@@ -18,7 +20,7 @@ leave() {{ printf '%s\n' "$2" > "$1.new" && mv -f "$1.new" "$1"; }}
 finish() {{
   leave exit "$1" && exit 0
   rm -rf work/out exit.new  # the disk is full
-  echo '{{"error":{{"reason":"DISK_FULL"}}}}' > answer
+  echo '{{"error":{{"reason":"{disk_full}"}}}}' > answer
   leave exit 4
   exit 1
 }}
@@ -28,9 +30,9 @@ build_id=$({print_build_id})
 leave begin "$node ${{SLURM_JOB_ID:-?}} $build_id"
 [ -z "$ended" ] || finish 143
 if [ "$build_id" != {build_id} ]; then
-  echo '{{"error":{{"reason":"WORKER_DIFFERS"}}}}' > answer
-  echo "node $node has build ${{build_id:-unknown}} of the worker, and the daemon's machine has build" \
-    {build_id}"; install the same package on both" > errors
+  has=$(printf '%s' "$node has build ${{build_id:-unknown}}" | tr -cd '[:alnum:] ._-')
+  echo '{{"error":{{"reason":"{worker_differs}","message":"node '"$has"' of the worker, and the machine of' \
+    'the daemon has build '{build_id}'; install the same package on both"}}}}' > answer
   finish 4
 fi
 (cd -- {inputs} && exec {command}) </dev/null >answer 2>errors
@@ -64,7 +66,9 @@ std::string batch_script(const ScriptPlan& plan) {
                      fmt::arg("print_build_id", print_build_id(plan.worker)),
                      fmt::arg("build_id", quoted(plan.build_id)),
                      fmt::arg("command", fmt::join(words, " ")),
-                     fmt::arg("inputs", quoted(plan.inputs)));
+                     fmt::arg("inputs", quoted(plan.inputs)),
+                     fmt::arg("disk_full", name_of(ErrorReason::DISK_FULL)),
+                     fmt::arg("worker_differs", name_of(ErrorReason::WORKER_DIFFERS)));
 }
 
 }  // namespace hydroprint::daemon::slurm

@@ -49,7 +49,7 @@ Status check_program(const char* program, const std::filesystem::path& folder) {
   return fail(Code::kFailedPrecondition,
               fmt::format("{} --version failed{}{}; run hydroprint admin check", program,
                           end.errors.empty() ? "" : ": ", end.errors),
-              "WORKER_UNUSABLE");
+              ErrorReason::WORKER_UNUSABLE);
 }
 
 }  // namespace
@@ -258,7 +258,7 @@ std::optional<Observation> SlurmExecutor::submit_again(const Execution& executio
   auto id = hand_over(execution, watch, words);
   if (id && watch.accepted_blindly >= kMostBlindly) {
     id = fail(Code::kInternal, "sbatch succeeds, but squeue does not show the job",
-              "WORKER_UNUSABLE");
+              ErrorReason::WORKER_UNUSABLE);
   }
   if (!id) return WorkerEnds{.wait_status = kUnusable, .errors = id.error().message};
   if (words.empty()) return std::nullopt;

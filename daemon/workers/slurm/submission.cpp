@@ -91,7 +91,7 @@ Result<Submitted> submit(const Execution& execution) {
               fmt::format("Slurm refused the job: {}; check [workers.slurm], and run hydroprint "
                           "admin check",
                           end->errors.empty() ? "sbatch gave no reason" : end->errors),
-              "WORKER_UNUSABLE");
+              ErrorReason::WORKER_UNUSABLE);
 }
 
 Status end_job(const std::string& name, const std::filesystem::path& folder) {

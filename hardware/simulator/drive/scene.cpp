@@ -102,7 +102,7 @@ Result<simulated_scene::Scenery> scenery_of(const Scene& scene) {
   if (!scene.camera) {
     return fail(Code::kNotFound,
                 "the virtual rig has no camera. Use a --scene file with a [camera] table",
-                "CAMERA_NOT_FOUND");
+                ErrorReason::CAMERA_NOT_FOUND);
   }
   simulated_scene::Scenery out;
   out.bodies = simulated_scene::standing_bodies(scene.film_mm);

@@ -1,14 +1,19 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
 #include "sim/base/result.h"
 
 namespace hydroprint::worker {
 
-/// Reports a failure of `program`: one line on stderr and, if `json`, also
-/// {"error":{"code","reason","message","metadata","exit_status"}} on stdout.
-void print_error(const Error& error, ExitStatus status, bool json,
-                 std::string_view program = "hydroprint-worker");
+/// Returns an error in the form of hydroprint.v1.Failure, with the field names of the .proto file.
+[[nodiscard]] nlohmann::ordered_json failure_json(const Error& error);
+
+/// Prints {"error": Failure} on stdout, for programs.
+void print_failure(const Error& error, ExitStatus status);
+
+/// Prints "PROGRAM: WORDS" on stderr, for people.
+void print_error(std::string_view program, std::string_view words);
 
 }  // namespace hydroprint::worker

@@ -53,7 +53,7 @@ Status check_replaceable(const fs::path& dir) {
   const auto status = fs::status(dir, error);
   if (!fs::exists(status)) return {};
   if (!fs::is_directory(status)) {
-    return fail(Code::kAlreadyExists, dir.string() + ": is a file. Choose another --out");
+    return fail(Code::kAlreadyExists, dir.string() + ": is a file. Choose another folder");
   }
   bool has_report = false;
   bool empty = true;
@@ -72,13 +72,13 @@ Status check_replaceable(const fs::path& dir) {
   if (!other_file.empty()) {
     return fail(Code::kAlreadyExists,
                 dir.string() + ": contains " + other_file +
-                    ", which is not an artifact of an earlier run. Choose another --out");
+                    ", which is not an artifact of an earlier run. Choose another folder");
   }
   if (!empty && !has_report) {
     return fail(
         Code::kAlreadyExists,
         dir.string() +
-            ": not empty, and has neither report.json nor frames.json. Choose another --out");
+            ": not empty, and has neither report.json nor frames.json. Choose another folder");
   }
   return {};
 }
@@ -95,12 +95,12 @@ std::string random_suffix() {
 tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
   if (error == ENOSPC || error == EDQUOT) {
     return fail(Code::kResourceExhausted,
-                dir.string() + ": the disk is full. Free some space or choose another --out",
-                "DISK_FULL");
+                dir.string() + ": the disk is full. Free some space or choose another folder",
+                ErrorReason::DISK_FULL);
   }
   return fail(Code::kPermissionDenied, dir.string() + ": cannot be written (" +
                                            std::generic_category().message(error) +
-                                           "). Choose another --out");
+                                           "). Choose another folder");
 }
 
 /// Syncs a folder, so that after a power cut DIR either has all its files or is as it was before.
@@ -189,11 +189,11 @@ Result<OutFolder> OutFolder::plan(const fs::path& dir) {
   if (!target.has_filename()) target = target.parent_path();
   if (error || !target.has_filename()) {
     return fail(Code::kInvalidArgument,
-                dir.string() + ": not usable as the output folder. Choose another --out");
+                dir.string() + ": not usable as the output folder. Choose another folder");
   }
   if (!fs::is_directory(target.parent_path(), error)) {
     return fail(Code::kNotFound, target.parent_path().string() +
-                                     ": no such folder. Create it or choose another --out");
+                                     ": no such folder. Create it or choose another folder");
   }
   if (::access(target.parent_path().c_str(), W_OK | X_OK) != 0) {
     return system_failure(target, errno);

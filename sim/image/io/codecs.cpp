@@ -204,7 +204,8 @@ auto safely(const std::string& name, Decode decode) -> decltype(decode()) {
     return decode();
   } catch (const std::bad_alloc&) {
     return fail(Code::kResourceExhausted,
-                name + ": not enough memory for this image. Scale it down", "OUT_OF_MEMORY");
+                name + ": not enough memory for this image. Scale it down",
+                ErrorReason::MEMORY_LIMIT);
   } catch (const std::exception& exception) {
     return corrupt(name, exception.what());
   }

@@ -139,7 +139,7 @@ Status compress(const Rows& image, std::vector<Band>& bands, const Context& cont
     band.raw_bytes = raw.size();
     band.adler = adler32_z(1, raw.data(), raw.size());
     if (deflate(raw, b + 1 == bands.size(), band.deflated)) return {};
-    return fail(Code::kInternal, "PNG: out of memory. Free some memory", "OUT_OF_MEMORY");
+    return fail(Code::kInternal, "PNG: out of memory. Free some memory", ErrorReason::MEMORY_LIMIT);
   });
 }
 
@@ -188,7 +188,7 @@ Status append_colours(Bytes& out, const std::string& icc_profile) {
   chunk.resize(start + bytes);
   if (::compress(chunk.data() + start, &bytes, reinterpret_cast<const Bytef*>(icc_profile.data()),
                  static_cast<uLong>(icc_profile.size())) != Z_OK) {
-    return fail(Code::kInternal, "PNG: out of memory. Free some memory", "OUT_OF_MEMORY");
+    return fail(Code::kInternal, "PNG: out of memory. Free some memory", ErrorReason::MEMORY_LIMIT);
   }
   chunk.resize(start + bytes);
   append_chunk(out, "iCCP", chunk);

@@ -60,7 +60,7 @@ class LayerLoader {
       out_.warnings.push_back(
           {WarningCode::PICTURE_PROJECTED,
            fmt::format("{} has no texture coordinates, so the picture is projected along the dip, "
-                       "as the film sees the object. Choose another projection (--project) if the "
+                       "as the film sees the object. Choose another projection if the "
                        "sides should look different",
                        model_.path.filename().string()),
            {InLayer{layer.name}}});

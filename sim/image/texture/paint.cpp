@@ -174,7 +174,7 @@ class PaintLoader {
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {
       return fail(Code::kInvalidArgument,
                   path.string() + ": cannot be applied to " + model_.path.string() +
-                      ", which has no texture coordinates (UVs). Choose a projection (--project), "
+                      ", which has no texture coordinates (UVs). Choose a projection, "
                       "or unwrap the model in a 3D editor");
     }
     HP_ASSIGN_OR_RETURN(ReadImage read, read_image(path, context_, use.decoding));
@@ -298,7 +298,7 @@ class PaintLoader {
       if (error.code == Code::kNotFound) {
         error.message = name +
                         ": no such file. Put the texture there, correct the path in the "
-                        "material, or use --texture";
+                        "material, or name a picture";
       }
       return tl::unexpected(std::move(error));
     }

@@ -69,7 +69,7 @@ Status check_place(Model& model) {
     return bad_input(
         model.path, fmt::format("vertex {}", std::distance(model.vertices.begin(), furthest)),
         "lies more than 1 km from the first vertex; remove it if it is a stray one, or "
-        "give a smaller --scale");
+        "use a smaller scale");
   }
   if (centre.norm() > kMaxDistance_mm)
     return bad_input(model.path, "",
@@ -165,7 +165,7 @@ Result<Model> read_model(const std::filesystem::path& path, double scale, const 
   if (!(scale > kMinScale && scale < kMaxScale))
     return fail(Code::kOutOfRange, path.string() +
                                        ": the scale must lie between 1e-6 and 1e6; set "
-                                       "--scale to the millimetres per unit of the model");
+                                       "it to the millimetres per unit of the model");
   const Reader reader = reader_for(path);
   if (reader == nullptr)
     return bad_input(path, "", "unknown format; use an OBJ, STL, PLY, glTF or GLB file");

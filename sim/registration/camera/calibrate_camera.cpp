@@ -34,7 +34,7 @@ constexpr std::array kNames{
 
 tl::unexpected<Error> poor(const std::string& why) {
   return fail(Code::kFailedPrecondition, "the camera cannot be calibrated from these views: " + why,
-              "POOR_VIEWS");
+              ErrorReason::POOR_VIEWS);
 }
 
 Lens::Vector prior_sigma(const Lens& nominal) {

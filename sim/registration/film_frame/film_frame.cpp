@@ -106,7 +106,7 @@ std::vector<MarkerReport> report(const std::vector<FoundMarker>& found, const Ma
 }
 
 tl::unexpected<Error> too_few(const std::string& what) {
-  return fail(Code::kFailedPrecondition, what, "TOO_FEW_MARKERS");
+  return fail(Code::kFailedPrecondition, what, ErrorReason::TOO_FEW_MARKERS);
 }
 
 /// Describes the missing markers, as far as the nominal pose of the camera allows.

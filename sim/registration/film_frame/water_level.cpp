@@ -84,7 +84,7 @@ Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
     return fail(
         Code::kFailedPrecondition,
         "too little of the water is in view to measure its level. Aim the camera at the water",
-        "NO_WATER");
+        ErrorReason::NO_WATER);
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Height& a, const Height& b) { return a.z_mm < b.z_mm; });

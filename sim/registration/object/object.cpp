@@ -127,7 +127,7 @@ class Finder {
     return fail(Code::kFailedPrecondition,
                 "the object in view does not match the mesh: " + why +
                     ". Use the mesh of the object in the gripper",
-                "NOT_THIS_OBJECT");
+                ErrorReason::NOT_THIS_OBJECT);
   }
 
   /// Returns the largest connected piece of points off the mesh, as a fraction of the scan.
@@ -231,7 +231,7 @@ tl::unexpected<Error> too_few(std::size_t points, const Surroundings& around) {
                      around.gripper_from_mm, around.gripper_radius_mm)
                : "Raise it, or move the camera nearer";
   }
-  return fail(Code::kFailedPrecondition, why, "NO_OBJECT");
+  return fail(Code::kFailedPrecondition, why, ErrorReason::NO_OBJECT);
 }
 
 void warn(ObjectPose& out) {
@@ -266,7 +266,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMaxThroughShare)
     return fail(Code::kFailedPrecondition,
                 "a second object is in view (" + percent(other) + " of the scan). Remove it",
-                "TWO_OBJECTS");
+                ErrorReason::TWO_OBJECTS);
   if (!best.explains()) {
     const Shape mirror(mirrored(task.surface));
     const auto turned_round =
@@ -274,7 +274,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
     if (turned_round && turned_round->explains())
       return fail(Code::kFailedPrecondition,
                   "the object is the mesh's mirror image. Export the mesh without mirroring",
-                  "MIRRORED");
+                  ErrorReason::MIRRORED);
     return Finder::not_this(mismatch_text(best));
   }
   ObjectPose out;

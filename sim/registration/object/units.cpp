@@ -71,13 +71,14 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
                   three_digits(mesh_mm), three_digits(scan_mm));
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
-                what + ". Use the complete mesh of the object in the gripper", "NOT_THIS_OBJECT");
+                what + ". Use the complete mesh of the object in the gripper",
+                ErrorReason::NOT_THIS_OBJECT);
   return fail(Code::kFailedPrecondition,
               fmt::format("{}. {} {}. Give a scale {} times {}", what,
                           too_large ? "The lengths in the mesh were read as"
                                     : "The mesh file seems to be in",
                           best->name, best->mm, too_large ? "smaller" : "larger"),
-              "WRONG_UNITS");
+              ErrorReason::WRONG_UNITS);
 }
 
 }  // namespace hydroprint::registration

@@ -86,21 +86,8 @@ Status check_fields(const Message& spec, const std::string& path) {
 
 }  // namespace
 
-tl::unexpected<Error> fail_field(Code code, const std::string& field, std::string problem) {
-  return tl::unexpected<Error>(Error{code, std::move(problem), {}, {{"field", field}}});
-}
-
 Error in_message(const std::string& message, Error error) {
-  const auto field = error.metadata.find("field");
-  if (field != error.metadata.end()) field->second.insert(0, message + ".");
-  return error;
-}
-
-Error name_field(Error error, bool as_flag) {
-  const auto field = error.metadata.find("field");
-  if (field == error.metadata.end()) return error;
-  error.message.insert(0, (as_flag ? flag_of(field->second) : field->second) + ": ");
-  if (as_flag) error.metadata.erase(field);
+  if (!error.field.empty()) error.field.insert(0, message + ".");
   return error;
 }
 

@@ -11,17 +11,8 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// Returns an error about a field of the spec. Its metadata contains the name of the field ("dpi"),
-/// its message only the problem; name_field() combines them.
-[[nodiscard]] tl::unexpected<Error> fail_field(Code code, const std::string& field,
-                                               std::string problem);
-
 /// Adds the name of the message in which the field of an error is: "film" becomes "film.film".
 [[nodiscard]] Error in_message(const std::string& message, Error error);
-
-/// Prefixes the error's message with the field as the user wrote it: "--ink-passes: ..." for flags,
-/// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
-[[nodiscard]] Error name_field(Error error, bool as_flag);
 
 /// Returns "--ink-passes" for "ink_passes" and for "film.ink_passes"; "--immersions: [1].depth_mm"
 /// for a field in a list.

@@ -37,8 +37,8 @@ Result<Pose> pose_of(const v1::Pose& pose) {
   add_key(json, "translation_mm", pose.translation_mm());
   const auto file = parse_pose(json, "pose");
   if (!file) {
-    // The message is "pose: rotation_wxyz: ...". Its first word is removed, because name_field()
-    // adds the field again.
+    // The message is "pose: rotation_wxyz: ...". Its first word is removed, because the
+    // error names the field apart.
     return fail_field(file.error().code, "pose",
                       file.error().message.substr(std::string("pose: ").size()));
   }

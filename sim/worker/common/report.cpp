@@ -19,15 +19,14 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-std::string utf8(const std::string& text) { return encode_utf8(decode_utf8(text)); }
-
 void repair_text(Message& message, const FieldDescriptor& field) {
   const auto& reflection = *message.GetReflection();
   if (!field.is_repeated())
-    return reflection.SetString(&message, &field, utf8(reflection.GetString(message, &field)));
+    return reflection.SetString(&message, &field,
+                                valid_utf8(reflection.GetString(message, &field)));
   for (int i = 0; i < reflection.FieldSize(message, &field); ++i) {
     reflection.SetRepeatedString(&message, &field, i,
-                                 utf8(reflection.GetRepeatedString(message, &field, i)));
+                                 valid_utf8(reflection.GetRepeatedString(message, &field, i)));
   }
 }
 

@@ -19,6 +19,7 @@
 #include "proto/write_json.h"
 #include "sim/base/checked_json.h"
 #include "sim/base/pose_file.h"
+#include "sim/base/process/error_output.h"
 #include "sim/display/display_model.h"
 #include "sim/film/outline.h"
 #include "sim/mesh/read/read_model.h"
@@ -68,15 +69,11 @@ Status answer(Json head, std::string_view bytes) {
 }
 
 Status answer_error(std::int64_t id, const Error& error) {
-  return answer(
-      {{"id", id},
-       {"error",
-        {{"code", code_name(error.code)}, {"reason", error.reason}, {"message", error.message}}}},
-      {});
+  return answer({{"id", id}, {"error", failure_json(error)}}, {});
 }
 
 Error superseded() {
-  return {Code::kCancelled, "a newer request replaced this one", "SUPERSEDED", {}};
+  return {Code::kCancelled, "a newer request replaced this one", ErrorReason::PREVIEW_SUPERSEDED};
 }
 
 Status answer_failure(std::int64_t id, const Error& error) {
@@ -189,7 +186,7 @@ Status answer_display(const Request& request, const mesh::Model& model, const Co
   const auto shown = inspect_model(model, request.shape_only, context);
   if (!shown) {
     Error error = shown.error();
-    if (error.code != Code::kCancelled) error.reason = "INPUT_REFUSED";
+    if (error.code != Code::kCancelled) error.reason = ErrorReason::INPUT_REFUSED;
     return answer_failure(request.id, error);
   }
   HP_ASSIGN_OR_RETURN(Json summary, json_of(shown->summary));

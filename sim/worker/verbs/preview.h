@@ -18,7 +18,7 @@ namespace hydroprint::worker {
 ///    "warnings"}, each of the latter a v1::Warning: for each place of the model that is shown
 ///    (display::shown_shape()) four floats,
 ///   film_x, film_y, contact_time, stretch, as in surface_map.ply: NaN where no film arrives
-/// or by {"id", "bytes": 0, "error": {"code", "reason", "message"}}, with the reason SUPERSEDED if
+/// or by {"id", "bytes": 0, "error": Failure}, with the reason PREVIEW_SUPERSEDED if
 /// a newer request came before this one was done, and INPUT_REFUSED if the model's colours cannot
 /// be read. The request {"id": 7, "read": true} (and "shape_only": true, as in InspectSpec) is
 /// answered by the model for display, with the binary glTF of inspect_model() as bytes:

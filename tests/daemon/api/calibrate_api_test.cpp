@@ -86,7 +86,7 @@ TEST_F(CalibrateApi, CameraFaultsAreNamed) {
     rig->act("clear");
     EXPECT_EQ(ended.state(), v1::Job::FAILED);
     EXPECT_FALSE(ended.error().message().empty());
-    return ended.error().reason();
+    return v1::ErrorReason_Name(ended.error().reason());
   };
   EXPECT_EQ(reason("camera gone", false), "CAMERA_NOT_FOUND");
   EXPECT_EQ(reason("camera gone", true), "CAMERA_GONE");
@@ -100,7 +100,7 @@ TEST_F(CalibrateApi, HangingCameraFailsTheCapture) {
   start_daemon(DaemonProcess::fake(), 2);
   rig->act("camera hung");
   const v1::Job job = done(create(capture_of(1)));
-  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << job.error().message();
+  EXPECT_EQ(job.error().reason(), v1::CAMERA_STALLED) << job.error().message();
 }
 
 TEST_F(CalibrateApi, CapturesRunOneAtATimeAndCanBeCancelled) {
@@ -199,7 +199,7 @@ TEST_F(CalibrateApi, FailedOrOtherJobsLeaveNoCalibration) {
   const auto reason = [&](const std::string& mesh) {
     const v1::Job job = done(create(calibrate_of(capture, mesh)));
     EXPECT_EQ(job.state(), v1::Job::FAILED);
-    return job.error().reason();
+    return v1::ErrorReason_Name(job.error().reason());
   };
   EXPECT_EQ(reason("garbage"), "WORKER_UNUSABLE");
   EXPECT_EQ(reason("reason MIRRORED\nexit 3 the mesh is its mirror image"), "MIRRORED");

@@ -135,13 +135,13 @@ TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithAReason) {
   const v1::Job capture = ended(create(capture_of(0.2)));
   const v1::Job metres = calibrate(capture, 0.001);
   EXPECT_EQ(metres.state(), v1::Job::FAILED);
-  EXPECT_EQ(metres.error().reason(), "WRONG_UNITS") << metres.error().message();
+  EXPECT_EQ(metres.error().reason(), v1::WRONG_UNITS) << metres.error().message();
   EXPECT_NE(metres.error().message().find("metres"), std::string::npos) << metres.error().message();
   for (const char* marker : {"left", "near"})
     rig->act(std::string("marker ") + marker + " knocked-over");
   const v1::Job toppled = calibrate(ended(create(capture_of(0.2))), 1);
   EXPECT_EQ(toppled.state(), v1::Job::FAILED);
-  EXPECT_EQ(toppled.error().reason(), "TOO_FEW_MARKERS") << toppled.error().message();
+  EXPECT_EQ(toppled.error().reason(), v1::TOO_FEW_MARKERS) << toppled.error().message();
   EXPECT_EQ(all().size(), 0U);
 }
 

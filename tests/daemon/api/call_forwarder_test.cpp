@@ -37,7 +37,8 @@ class Queue final : public v1::QueueService::Service {
                           v1::Queue*) override {
     ++calls;
     if (!request->reason().empty()) {
-      return to_grpc(fail(Code::kFailedPrecondition, request->reason(), "STATE_FORBIDS").value());
+      return to_grpc(
+          fail(Code::kFailedPrecondition, request->reason(), ErrorReason::STATE_FORBIDS).value());
     }
     while (!context->IsCancelled()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     was_cancelled = true;
@@ -57,7 +58,8 @@ class Assets final : public v1::AssetService::Service {
     std::int64_t bytes = 0;
     while (reader->Read(&chunk)) {
       bytes += static_cast<std::int64_t>(chunk.data().size());
-      if (chunk.upload() == "short") return to_grpc(fail(Code::kAborted, "enough", "X").value());
+      if (chunk.upload() == "short")
+        return to_grpc(fail(Code::kAborted, "enough", ErrorReason::STATE_FORBIDS).value());
     }
     reply->mutable_upload()->set_received_bytes(bytes);
     return grpc::Status::OK;

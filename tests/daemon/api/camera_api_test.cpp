@@ -116,7 +116,7 @@ TEST_F(CameraApi, HangingCameraBlocksOnlyItsViewers) {
   EXPECT_TRUE(ann->stop().ok());
   watcher.join();
   const v1::Job job = done(create(capture_of(0.2)));
-  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << "the capture reports its own error";
+  EXPECT_EQ(job.error().reason(), v1::CAMERA_STALLED) << "the capture reports its own error";
   rig->act("clear");
   EXPECT_TRUE(comes_to(""));
 }

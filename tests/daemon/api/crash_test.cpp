@@ -62,7 +62,7 @@ TEST_F(Crash, JobFailsAfterTheThirdLossOfTheDaemon) {
   const v1::Job lost = client->job(crashing_job);
   EXPECT_EQ(lost.state(), v1::Job::FAILED);
   EXPECT_EQ(lost.error().code(), grpc::INTERNAL);
-  EXPECT_EQ(lost.error().reason(), "DAEMON_LOST");
+  EXPECT_EQ(lost.error().reason(), v1::DAEMON_LOST);
   EXPECT_NE(lost.error().message().find("3 times"), std::string::npos) << lost.error().message();
   EXPECT_EQ(history(crashing_job).back(), v1::Job::FAILED);
   EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);

@@ -325,7 +325,8 @@ TEST_P(DipFault, DuringTheDescentFailsTheDipWithAReason) {
   rig.act(GetParam().line);
   const v1::Job ended = ann.wait_for_end(name);
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), GetParam().reason) << ended.error().message();
+  EXPECT_EQ(v1::ErrorReason_Name(ended.error().reason()), GetParam().reason)
+      << ended.error().message();
   EXPECT_NE(ended.error().message().find("film"), std::string::npos) << ended.error().message();
   EXPECT_EQ(ended.dip_status().step(), v1::DipStatus::DESCEND);
   EXPECT_EQ(rig.speed_mm_per_s(), 0);
@@ -352,7 +353,8 @@ TEST_P(DipFault, WhileTheFilmSoaksFailsTheDipToo) {
   }
   const v1::Job ended = ann.wait_for_end(name);
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), GetParam().reason) << ended.error().message();
+  EXPECT_EQ(v1::ErrorReason_Name(ended.error().reason()), GetParam().reason)
+      << ended.error().message();
 }
 
 INSTANTIATE_TEST_SUITE_P(All, DipFault,
@@ -456,7 +458,7 @@ TEST_F(DipApi, DriveStopsTheDescentOfAHangingDaemon) {
   ::kill(daemon.pid(), SIGCONT);
   const v1::Job ended = ann.wait_for_end(name);
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  const std::string reason = ended.error().reason();
+  const std::string reason = v1::ErrorReason_Name(ended.error().reason());
   EXPECT_TRUE(reason == "RIG_FAULTED" || reason == "RIG_OFFLINE") << reason;
   EXPECT_EQ(ann.report(name).at("outcome"), "FAILED");
   EXPECT_TRUE(ann.becomes(v1::Rig::FAULT));

@@ -2,8 +2,9 @@
 //
 //   sleep SECONDS   waits and reports progress; ends on SIGTERM
 //   stubborn        like sleep 60, but ignores SIGTERM
-//   exit N WORDS    prints WORDS and exits with status N
-//   reason WORD     prints WORD as the reason of an error
+//   exit N WORDS    exits with status N and a Failure whose message is WORDS
+//   reason WORD     the reason of the Failure
+//   field WORD      the field of the Failure
 //   crash           aborts
 //   eat             allocates 64 GiB of memory, 16 MiB at a time
 //   huge            writes a file of 64 MiB
@@ -51,6 +52,7 @@ namespace {
 
 std::map<std::string, std::string> flags;
 nlohmann::json spec;
+nlohmann::json failure = nlohmann::json::object();
 std::string facts;
 std::string warning;
 std::string fault;  // of the report
@@ -97,7 +99,7 @@ void eat() {
   for (int i = 0; i < 4096; ++i) {
     blocks.push_back(new (std::nothrow) char[kBlock]);
     if (blocks.back() == nullptr) {  // ends as hydroprint-worker does
-      std::cout << R"({"error":{"reason":"OUT_OF_MEMORY"}})" << std::endl;
+      std::cout << R"({"error":{"reason":"MEMORY_LIMIT"}})" << std::endl;
       std::_Exit(4);
     }
     std::memset(blocks.back(), i, kBlock);
@@ -128,7 +130,9 @@ void execute(const std::string& line) {
     int status = 0;
     words >> status;
     std::getline(words >> std::ws, rest);
-    std::cerr << rest << std::endl;
+    std::cerr << "for people: " << rest << std::endl;
+    if (!rest.empty()) failure["message"] = rest;
+    std::cout << nlohmann::json{{"error", failure}} << std::endl;
     std::_Exit(status);
   } else if (command == "warn") {
     std::getline(words >> std::ws, warning);
@@ -140,7 +144,7 @@ void execute(const std::string& line) {
     try {
       eat();
     } catch (const std::bad_alloc&) {
-      std::cout << R"({"error":{"reason":"OUT_OF_MEMORY"}})" << std::endl;
+      std::cout << R"({"error":{"reason":"MEMORY_LIMIT"}})" << std::endl;
       std::_Exit(4);
     }
   } else if (command == "huge") {
@@ -180,9 +184,9 @@ void execute(const std::string& line) {
     facts += real_time.rlim_max == 0 ? " no-rtprio" : " RTPRIO";
   } else if (command == "garbage") {
     is_garbage = true;
-  } else if (command == "reason") {
+  } else if (command == "reason" || command == "field") {
     words >> rest;
-    std::cout << R"({"error":{"reason":")" << rest << "\"}}" << std::endl;
+    failure[command] = rest;
   } else if (command == "nothing") {
     std::filesystem::remove_all(flags["--out"]);
     std::_Exit(0);

@@ -54,7 +54,7 @@ class FullDisk : public ::testing::Test {
   void expect_no_room_for(const v1::Job& job) const {
     EXPECT_EQ(job.state(), v1::Job::FAILED);
     EXPECT_EQ(job.error().code(), grpc::RESOURCE_EXHAUSTED) << job.error().message();
-    EXPECT_EQ(job.error().reason(), "DISK_FULL") << job.error().message();
+    EXPECT_EQ(job.error().reason(), v1::DISK_FULL) << job.error().message();
     EXPECT_EQ(files_in("artifacts"), 0);
     EXPECT_EQ(files_in("runs"), 0);
   }

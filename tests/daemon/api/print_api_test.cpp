@@ -243,7 +243,7 @@ TEST_F(PrintApi, AbortedPrintFailsWithThePrintersMessage) {
   start(there);
   const v1::Job ended = done(create(print_of(pages())));
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), "PRINT_ABORTED");
+  EXPECT_EQ(ended.error().reason(), v1::PRINT_ABORTED);
   EXPECT_TRUE(has(ended.error().message(), "aborted")) << ended.error().message();
   EXPECT_EQ(json::parse(file(ended, "report.json"))["reason"], "PRINT_ABORTED");
 }
@@ -255,7 +255,7 @@ TEST_F(PrintApi, MissingOrUnreachablePrinterIsReported) {
   start("address = \"ipp://127.0.0.1:1/ipp/print\"\n");
   const v1::Job ended = done(create(print_of(pages())));
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), "PRINTER_UNREACHABLE") << ended.error().message();
+  EXPECT_EQ(ended.error().reason(), v1::PRINTER_UNREACHABLE) << ended.error().message();
 }
 
 TEST_F(PrintApi, PrinterLostDuringAPrintFailsTheJob) {
@@ -265,7 +265,7 @@ TEST_F(PrintApi, PrinterLostDuringAPrintFailsTheJob) {
   there.pull_the_plug();
   const v1::Job ended = done(job);
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), "PRINTER_LOST");
+  EXPECT_EQ(ended.error().reason(), v1::PRINTER_LOST);
   EXPECT_TRUE(has(ended.error().message(), "may or may not have been printed"));
 }
 

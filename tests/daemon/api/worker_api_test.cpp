@@ -30,7 +30,7 @@ class Workers : public ::testing::Test {
     const v1::Job job = run(mesh);
     EXPECT_EQ(job.state(), v1::Job::FAILED);
     EXPECT_EQ(job.error().code(), code) << job.error().message();
-    EXPECT_EQ(job.error().reason(), reason) << job.error().message();
+    EXPECT_EQ(v1::ErrorReason_Name(job.error().reason()), reason) << job.error().message();
     EXPECT_FALSE(job.error().message().empty());
     EXPECT_EQ(job.error().message().find('\n'), std::string::npos);
     v1::ListArtifactsRequest list;
@@ -59,6 +59,9 @@ TEST_F(Workers, EachKindOfFailureHasItsError) {
                 "INPUT_REFUSED");
   EXPECT_EQ(client->job("jobs/1").error().message(), "spot.obj:7: not a number; fix the line");
   EXPECT_EQ(client->job("jobs/1").error().exit_status(), 3);
+  expect_failed("field dpi\nreason MIRRORED\nexit 3 too large", grpc::INVALID_ARGUMENT, "MIRRORED");
+  EXPECT_EQ(client->job("jobs/2").error().message(), "too large");
+  EXPECT_EQ(client->job("jobs/2").error().field(), "simulate.dpi");
   expect_failed("exit 2 not built yet", grpc::INVALID_ARGUMENT, "INPUT_REFUSED");
   expect_failed("exit 4 it diverged", grpc::INTERNAL, "COMPUTATION_FAILED");
   expect_failed("exit 77 what", grpc::INTERNAL, "COMPUTATION_FAILED");
@@ -78,7 +81,7 @@ TEST_F(Workers, UnusableReportFailsItsJobAndTheDaemonGoesOn) {
                                                         {"missing", "missing"}}) {
     const v1::Job job = run("report " + fault);
     EXPECT_EQ(job.state(), v1::Job::FAILED) << fault;
-    EXPECT_EQ(job.error().reason(), "WORKER_UNUSABLE") << fault;
+    EXPECT_EQ(job.error().reason(), v1::WORKER_UNUSABLE) << fault;
     EXPECT_NE(job.error().message().find(words), std::string::npos) << job.error().message();
   }
   EXPECT_EQ(run("# nothing wrong").state(), v1::Job::SUCCEEDED);
@@ -113,7 +116,7 @@ TEST_F(Workers, KilledWorkerFailsOnlyItsJob) {
   ::kill(wait_for_worker(), SIGKILL);
   const v1::Job ended = client->wait_for_end(job.name());
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
-  EXPECT_EQ(ended.error().reason(), "WORKER_KILLED");
+  EXPECT_EQ(ended.error().reason(), v1::WORKER_KILLED);
   EXPECT_EQ(ended.error().signal(), SIGKILL);
   EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
 }
@@ -455,7 +458,7 @@ TEST_F(RealPlan, DipsThatDoNotFitThePlanAreRefusedByName) {
 TEST_F(RealWorker, BadModelIsRefusedWithItsName) {
   const v1::Job job = run("v 0 0 nan\nf 1 1 1\n");
   ASSERT_EQ(job.state(), v1::Job::FAILED);
-  EXPECT_EQ(job.error().reason(), "INPUT_REFUSED") << job.error().message();
+  EXPECT_EQ(job.error().reason(), v1::INPUT_REFUSED) << job.error().message();
   EXPECT_EQ(job.error().exit_status(), 3);
   EXPECT_NE(job.error().message().find("m.obj"), std::string::npos) << job.error().message();
 }

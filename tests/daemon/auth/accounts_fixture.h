@@ -33,7 +33,9 @@ class PeopleTest : public ::testing::Test {
     const auto made = accounts->users().create({name, role, false, "", 0}, kPassword);
     ASSERT_TRUE(made) << made.error().message;
   }
-  [[nodiscard]] std::string reason_of(const Error& error) const { return error.reason; }
+  [[nodiscard]] std::string reason_of(const Error& error) const {
+    return std::string(name_of(error.reason));
+  }
 
   hydroprint::testing::TemporaryFolder folder;
   std::int64_t now_ms = 1'000'000'000;

@@ -19,7 +19,7 @@ TEST_F(Users, FirstUserMustBeAnAdmin) {
   EXPECT_FALSE(accounts->users().any());
   const auto refused = accounts->users().create({"mae", Role::kOperator, false, "", 0}, kPassword);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "LAST_ADMIN");
+  EXPECT_EQ(refused.error().reason, ErrorReason::LAST_ADMIN);
   EXPECT_FALSE(accounts->users().any());
   add("ann", Role::kAdmin);
   EXPECT_TRUE(accounts->users().any());
@@ -37,12 +37,14 @@ TEST_F(Users, SurviveAKillOfTheDaemon) {
 
 TEST_F(Users, LastAdminCannotBeRemoved) {
   add("ann", Role::kAdmin);
-  EXPECT_EQ(accounts->users().remove("ann").error().reason, "LAST_ADMIN");
-  EXPECT_EQ(accounts->users().update("ann", {Role::kMaker, {}}).error().reason, "LAST_ADMIN");
-  EXPECT_EQ(accounts->users().update("ann", {{}, true}).error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->users().remove("ann").error().reason, ErrorReason::LAST_ADMIN);
+  EXPECT_EQ(accounts->users().update("ann", {Role::kMaker, {}}).error().reason,
+            ErrorReason::LAST_ADMIN);
+  EXPECT_EQ(accounts->users().update("ann", {{}, true}).error().reason, ErrorReason::LAST_ADMIN);
   add("bea", Role::kAdmin);
   EXPECT_TRUE(accounts->users().update("ann", {{}, true}));
-  EXPECT_EQ(accounts->users().remove("bea").error().reason, "LAST_ADMIN");  // ann is disabled
+  EXPECT_EQ(accounts->users().remove("bea").error().reason,
+            ErrorReason::LAST_ADMIN);  // ann is disabled
   EXPECT_TRUE(accounts->users().remove("ann"));
 }
 
@@ -52,9 +54,9 @@ TEST_F(Users, NamesAreCheckedAndUnique) {
     EXPECT_FALSE(accounts->users().create({name, Role::kMaker, false, "", 0}, "")) << name;
   }
   EXPECT_EQ(accounts->users().create({"ann", Role::kMaker, false, "", 0}, "").error().reason,
-            "USER_EXISTS");
+            ErrorReason::USER_EXISTS);
   EXPECT_EQ(accounts->users().create({"bob", Role::kMaker, false, "", 0}, "short").error().reason,
-            "SPEC_INVALID");
+            ErrorReason::SPEC_INVALID);
 }
 
 TEST_F(Users, PasswordIsStoredOnlyAsArgon2idHash) {
@@ -157,7 +159,8 @@ TEST_F(Keys, AreLimitedInNumber) {
   add("ann", Role::kAdmin);
   EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
   EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
-  EXPECT_EQ(accounts->keys().create({"ann", "", Role::kAdmin, 0}).error().reason, "KEYS_FULL");
+  EXPECT_EQ(accounts->keys().create({"ann", "", Role::kAdmin, 0}).error().reason,
+            ErrorReason::KEYS_FULL);
   ASSERT_TRUE(accounts->keys().remove(accounts->keys().list("ann", "", 10).front().id));
   EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
 }
@@ -210,7 +213,8 @@ TEST_F(Sessions, AreListedRevokedAndSurviveARestart) {
   ASSERT_TRUE(accounts->sessions().end(two.session.id));
   EXPECT_FALSE(accounts->sessions().caller(two.token));
   EXPECT_TRUE(accounts->sessions().caller(one.token));
-  EXPECT_EQ(accounts->sessions().get(two.session.id).error().reason, "SESSION_NOT_FOUND");
+  EXPECT_EQ(accounts->sessions().get(two.session.id).error().reason,
+            ErrorReason::SESSION_NOT_FOUND);
 }
 
 TEST_F(Sessions, LimitEndsTheLeastRecentlyUsed) {
@@ -243,7 +247,8 @@ TEST_F(Links, WorkOnce) {
   const auto in = accounts->sessions().sign_in_by_link(link.first, "p");
   ASSERT_TRUE(in);
   EXPECT_EQ(accounts->sessions().caller(in->token)->name, "ann");
-  EXPECT_EQ(accounts->sessions().sign_in_by_link(link.first, "p").error().reason, "SIGN_IN_FAILED");
+  EXPECT_EQ(accounts->sessions().sign_in_by_link(link.first, "p").error().reason,
+            ErrorReason::SIGN_IN_FAILED);
 }
 
 TEST_F(Links, ExpireAfter15Minutes) {

@@ -100,11 +100,11 @@ TEST_F(PeopleTest, ThrottlingAppliesToTheRightPasswordToo) {
   add("ann", Role::kAdmin);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(accounts->sessions().sign_in("ann", "wrong password", "p").error().reason,
-              "SIGN_IN_FAILED");
+              ErrorReason::SIGN_IN_FAILED);
   }
   const auto refused = accounts->sessions().sign_in("ann", kPassword, "p");
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "TOO_MANY_ATTEMPTS");
+  EXPECT_EQ(refused.error().reason, ErrorReason::TOO_MANY_ATTEMPTS);
   EXPECT_EQ(refused.error().metadata.at("retry_s"), "1");
   EXPECT_TRUE(accounts->sessions().sign_in("ann", kPassword, "q"));
   now_ms += 1000;

@@ -82,7 +82,7 @@ class Admission : public auth::PeopleTest {
   }
   std::string reason_of_refusal(const std::string& method, const auth::Credentials& credentials) {
     const auto caller = check.admit(method, credentials);
-    return caller ? "" : caller.error().reason;
+    return std::string(caller ? "" : name_of(caller.error().reason));
   }
 
   Authenticator authenticator{*accounts, true};
@@ -154,7 +154,7 @@ TEST_F(Admission, MethodsWithoutSignInAreOpenToUnknownCallers) {
 }
 
 TEST_F(Admission, UnknownMethodsAreRefused) {
-  EXPECT_EQ(reason_of_refusal("/hydroprint.v1.QueueService/Get", from("")), "METHOD_NOT_FOUND");
+  EXPECT_EQ(reason_of_refusal("/hydroprint.v1.QueueService/Get", from("")), "ROUTE_NOT_FOUND");
 }
 
 TEST_F(Admission, StreamEndsWithItsSession) {

@@ -124,11 +124,11 @@ TEST_F(DipPlanOfJob, SpecOverridesSimulationWhichOverridesDefaults) {
 TEST_F(DipPlanOfJob, SimulationMustHaveSucceeded) {
   v1::DipSpec spec;
   spec.set_simulate_job("jobs/77");
-  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, "JOB_NOT_FOUND");
+  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, ErrorReason::JOB_NOT_FOUND);
   spec.set_simulate_job(job_name(add("queued").id));
-  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, ErrorReason::STATE_FORBIDS);
   spec.set_simulate_job(simulate("no report"));
-  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, ErrorReason::STATE_FORBIDS);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::string refusal(const Plan& plan, double contact_mm) {
   if (ways) return "";
   EXPECT_EQ(ways.error().code, Code::kOutOfRange);
   EXPECT_TRUE(ways.error().metadata.contains("value"));
-  return ways.error().reason;
+  return std::string(name_of(ways.error().reason));
 }
 
 TEST(DipPlan, DescendsFromClearanceToDepthAndReturns) {

@@ -88,7 +88,7 @@ TEST(DipRecord, ReportIsReplacedAtomically) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.next"));
   const auto lost = write_report(folder.path() / "none", v1::DipReport());
   ASSERT_FALSE(lost);
-  EXPECT_EQ(lost.error().reason, "DISK_FULL");
+  EXPECT_EQ(lost.error().reason, ErrorReason::DISK_FULL);
 }
 
 }  // namespace

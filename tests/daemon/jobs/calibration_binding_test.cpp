@@ -41,7 +41,9 @@ TEST(CalibrationReport, ValuesThatNoCalibrationHasAreNamed) {
   const auto refusal = [&] {
     v1::Calibration out;
     const Status status = take_calibration(facts, out);
-    return status ? "taken" : status.error().reason + ": " + status.error().message;
+    return status
+               ? "taken"
+               : std::string(name_of(status.error().reason)) + ": " + full_message(status.error());
   };
   EXPECT_NE(refusal().find("pose.rotation_wxyz"), std::string::npos);
   for (const double x : {1.0, 0.0, 0.0, 0.0}) facts.mutable_pose()->add_rotation_wxyz(x);

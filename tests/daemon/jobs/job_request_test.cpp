@@ -32,8 +32,8 @@ std::string refused_field(const v1::Job& job) {
   const auto request = check_job(job);
   if (request) return "accepted";
   EXPECT_EQ(request.error().code, Code::kInvalidArgument);
-  const auto& metadata = request.error().metadata;
-  return metadata.contains("field") ? metadata.at("field") : request.error().reason;
+  const Error& error = request.error();
+  return error.field.empty() ? std::string(name_of(error.reason)) : error.field;
 }
 
 /// The spec that the worker receives.
@@ -187,7 +187,7 @@ TEST(Spec, WrongFilesAreNamedWithTheirPlaceInThePlan) {
   job.mutable_plan()->mutable_film()->mutable_profile()->set_name("p.toml");
   const auto request = check_job(job);
   ASSERT_FALSE(request);
-  EXPECT_EQ(request.error().reason, "ID_INVALID");
+  EXPECT_EQ(request.error().reason, ErrorReason::ID_INVALID);
   EXPECT_TRUE(request.error().message.starts_with("plan.film.profile.asset: "))
       << request.error().message;
 }
@@ -432,8 +432,8 @@ TEST(Spec, AllWrongFieldsAreReportedTogether) {
   job.mutable_simulate()->set_dpi(1);
   const auto request = check_job(job);
   ASSERT_FALSE(request);
-  EXPECT_EQ(request.error().reason, "SPEC_INVALID");
-  EXPECT_EQ(request.error().metadata.at("field"), "priority");
+  EXPECT_EQ(request.error().reason, ErrorReason::SPEC_INVALID);
+  EXPECT_EQ(request.error().field, "priority");
   const auto violations = rest::violations_of(request.error());
   ASSERT_EQ(violations.size(), 3U);
   EXPECT_EQ(violations[1].field, "simulate.film");

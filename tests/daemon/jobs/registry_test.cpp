@@ -32,13 +32,13 @@ TEST(JobKinds, AreFoundByTheVerbOfAStoredJob) {
     EXPECT_TRUE(names.insert(kind->name()).second) << kind->name();
   }
   EXPECT_TRUE(names.contains("print-image"));
-  EXPECT_EQ(kind_of(Job()).error().reason, "STORE_FAILED");
+  EXPECT_EQ(kind_of(Job()).error().reason, ErrorReason::STORE_FAILED);
 }
 
 TEST(JobKinds, MissingSpecIsRefusedWithTheListOfKinds) {
   const auto refused = kind_of(v1::Job());
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().metadata.at("field"), "job");
+  EXPECT_EQ(refused.error().field, "job");
   for (const JobKind* const kind : job_kinds()) {
     EXPECT_NE(refused.error().message.find(kind->field().name()), std::string::npos);
   }

@@ -19,7 +19,7 @@ TEST(FileName, NamesThatLeaveTheFolderAreRefused) {
         "a\\b"s, "a\nb"s, "a\0b"s, "\x7f"s, "-rf"s, "a/--out"s, std::string(256, 'a')}) {
     const Status status = check_file_name("f", bad);
     ASSERT_FALSE(status) << bad;
-    EXPECT_EQ(status.error().reason, "NAME_INVALID");
+    EXPECT_EQ(status.error().reason, ErrorReason::NAME_INVALID);
     EXPECT_EQ(status.error().message.find('\n'), std::string::npos);
   }
 }

@@ -50,11 +50,11 @@ TEST(PrintRecord, UnusablePrinterIsRefusedBeforeSending) {
   there.accepts_jobs = false;
   there.state_reasons = {"media-empty"};
   Status refused = check_takes_pdf(there, "ipp://there");
-  EXPECT_EQ(refused.error().reason, "PRINTER_REFUSED");
+  EXPECT_EQ(refused.error().reason, ErrorReason::PRINTER_REFUSED);
   EXPECT_NE(refused.error().message.find("media-empty"), std::string::npos);
   there.formats = {"image/urf"};
   refused = check_takes_pdf(there, "ipp://there");
-  EXPECT_EQ(refused.error().reason, "FORMAT_NOT_SUPPORTED");
+  EXPECT_EQ(refused.error().reason, ErrorReason::FORMAT_NOT_SUPPORTED);
 }
 
 TEST(PrintPlan, PagesComeFromTheReportAndImpossibleOnesAreRefused) {
@@ -72,7 +72,7 @@ TEST(PrintPlan, PagesComeFromTheReportAndImpossibleOnesAreRefused) {
   EXPECT_EQ(plan.margin_mm, 3);
   EXPECT_TRUE(plan.paper_mm == Eigen::Vector2d(210, 297)) << "the paper lies upright in the tray";
   report.mutable_sheets(0)->set_size_mm(0, 0);
-  EXPECT_EQ(read_printed_pages(report, plan).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(read_printed_pages(report, plan).error().reason, ErrorReason::STATE_FORBIDS);
   report.mutable_sheets(0)->clear_size_mm();
   EXPECT_FALSE(read_printed_pages(report, plan));
 }

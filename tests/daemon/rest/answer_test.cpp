@@ -24,8 +24,10 @@ TEST(ErrorAnswer, HasTheHttpStatusOfItsCode) {
 }
 
 TEST(ErrorAnswer, HasAllDetailsOfTheError) {
-  Error error{
-      Code::kNotFound, "jobs/7: there is no such job", "JOB_NOT_FOUND", {{"job", "jobs/7"}}};
+  Error error{Code::kNotFound,
+              "jobs/7: there is no such job",
+              ErrorReason::JOB_NOT_FOUND,
+              {{"job", "jobs/7"}}};
   const Answer answer = error_answer(error);
   EXPECT_EQ(answer.http_status, 404);
   EXPECT_EQ(json::parse(answer.json), json::parse(R"({"error": {
@@ -35,7 +37,7 @@ TEST(ErrorAnswer, HasAllDetailsOfTheError) {
 }
 
 TEST(ErrorAnswer, IsTheSameOverGrpc) {
-  const Error error{Code::kResourceExhausted, "too many jobs", "QUEUE_FULL", {}};
+  const Error error{Code::kResourceExhausted, "too many jobs", ErrorReason::QUEUE_FULL, {}};
   const Answer answer = error_answer(8, error.message, status_details(error));
   EXPECT_EQ(answer.json, error_answer(error).json);
   EXPECT_EQ(answer.http_status, 429);
@@ -46,11 +48,14 @@ TEST(ErrorAnswer, IsTheSameOverGrpc) {
 }
 
 TEST(ErrorAnswer, MethodNotAllowedIs405) {
-  const Answer answer = error_answer(Error{Code::kUnimplemented, "x", "METHOD_NOT_ALLOWED", {}});
+  const Answer answer =
+      error_answer(Error{Code::kUnimplemented, "x", ErrorReason::METHOD_NOT_ALLOWED, {}});
   EXPECT_EQ(answer.http_status, 405);
   EXPECT_EQ(json::parse(answer.json)["error"]["code"], 405);
   EXPECT_EQ(json::parse(answer.json)["error"]["status"], "UNIMPLEMENTED");
-  EXPECT_EQ(error_answer(Error{Code::kUnimplemented, "x", "STORE_FAILED", {}}).http_status, 501);
+  EXPECT_EQ(
+      error_answer(Error{Code::kUnimplemented, "x", ErrorReason::STORE_FAILED, {}}).http_status,
+      501);
 }
 
 TEST(ErrorAnswer, AcceptsMissingAndUnknownDetails) {

@@ -27,38 +27,39 @@ json error_info(const Error& error) {
 }
 
 TEST(BadRequest, ListsAllWrongFieldsInOrder) {
-  const Error error = bad_request({{"simulate.scale", "is wrong", "SPEC_INVALID"},
-                                   {"simulate.dpi", "is too large", "SPEC_INVALID"}});
+  const Error error = bad_request({{"simulate.scale", "is wrong", ErrorReason::SPEC_INVALID},
+                                   {"simulate.dpi", "is too large", ErrorReason::SPEC_INVALID}});
   EXPECT_EQ(error.code, Code::kInvalidArgument);
-  EXPECT_EQ(error.message, "simulate.scale: is wrong; simulate.dpi: is too large");
+  EXPECT_EQ(full_message(error), "simulate.scale: is wrong; simulate.dpi: is too large");
   EXPECT_EQ(field_violations(error),
             json::parse(R"([{"field": "simulate.scale", "description": "is wrong"},
                             {"field": "simulate.dpi", "description": "is too large"}])"));
 }
 
 TEST(BadRequest, ReasonAndFieldComeFromTheFirstViolation) {
-  const Error error = bad_request(
-      {{"mesh.name", "is wrong", "NAME_INVALID"}, {"dpi", "is too large", "SPEC_INVALID"}});
+  const Error error = bad_request({{"mesh.name", "is wrong", ErrorReason::NAME_INVALID},
+                                   {"dpi", "is too large", ErrorReason::SPEC_INVALID}});
   const json info = error_info(error);
   EXPECT_EQ(info["reason"], "NAME_INVALID");
   EXPECT_EQ(info["metadata"], json::parse(R"({"field": "mesh.name"})"));
 }
 
 TEST(BadRequest, SingleWrongFieldHasTheSameForm) {
-  const Error error{Code::kInvalidArgument, "ttl: is too long", "SPEC_INVALID", {{"field", "ttl"}}};
+  const Error error{Code::kInvalidArgument, "is too long", ErrorReason::SPEC_INVALID, {}, "ttl"};
   EXPECT_EQ(field_violations(error),
             json::parse(R"([{"field": "ttl", "description": "is too long"}])"));
 }
 
 TEST(BadRequest, OtherErrorsNameNoFields) {
-  EXPECT_EQ(field_violations({Code::kNotFound, "jobs/7: is gone", "JOB_NOT_FOUND", {}}), nullptr);
+  EXPECT_EQ(field_violations({Code::kNotFound, "jobs/7: is gone", ErrorReason::JOB_NOT_FOUND, {}}),
+            nullptr);
 }
 
 TEST(BadRequest, ManyWrongFieldsFitInAReply) {
   std::vector<rules::Violation> violations;
   for (int i = 0; i < 300; ++i) {
     violations.push_back({"simulate.extra_files[" + std::to_string(i) + "].name",
-                          std::string(80, 'x'), "NAME_INVALID"});
+                          std::string(80, 'x'), ErrorReason::NAME_INVALID});
   }
   const json shown = field_violations(bad_request(violations));
   EXPECT_EQ(shown.size(), 16U);

@@ -118,7 +118,7 @@ TEST(Body, UnknownFieldsAreRefusedByName) {
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(body(text), "JSON_INVALID " + expected);
   const auto call = rules().read("POST", "/r/all", R"({"inner":{"text":"\u0000"}})");
-  EXPECT_EQ(call.error().metadata.at("field"), "inner.text");
+  EXPECT_EQ(call.error().field, "inner.text");
 }
 
 TEST(Body, ValuesOfAnotherTypeAreRefused) {

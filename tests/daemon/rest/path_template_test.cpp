@@ -88,7 +88,7 @@ TEST(PathTemplate, InvalidUrlsAreRefused) {
     const auto parts = split_path(path);
     ASSERT_FALSE(parts) << path;
     EXPECT_EQ(parts.error().code, Code::kInvalidArgument);
-    EXPECT_EQ(parts.error().reason, "URL_INVALID");
+    EXPECT_EQ(parts.error().reason, ErrorReason::URL_INVALID);
   }
 }
 

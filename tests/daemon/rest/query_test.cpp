@@ -86,7 +86,7 @@ TEST(Query, InvalidValuesAreRefusedByName) {
       {"both.text=a&left=", "left: cannot be combined with both; give only one of them"},
       {"name=x", "name: Everything has no such field"},
       {"Text=x", "Text: Everything has no such field"},
-      {"=x", ": Everything has no such field"},
+      {"=x", "Everything has no such field"},
       {"inner.name=x", "inner.name: Inner has no such field"},
       {"inner.=x", "inner.: Inner has no such field"},
       {".text=x", ".text: Everything has no such field"},
@@ -105,7 +105,7 @@ TEST(Query, InvalidValuesAreRefusedByName) {
   for (int i = 0; i < 1000; ++i) deep += ".deeper";
   EXPECT_NE(query(deep + ".text=x").find("...: is nested too deeply"), std::string::npos);
   const auto call = rules().read("GET", "/r/query?inner.seq=x", "");
-  EXPECT_EQ(call.error().metadata.at("field"), "inner.seq");
+  EXPECT_EQ(call.error().field, "inner.seq");
 }
 
 TEST(Query, InvalidUrlsAreRefused) {

@@ -91,7 +91,7 @@ TEST(Routes, EachApiRouteHasOnlyItsOwnMethods) {
       if (std::count(allowed.begin(), allowed.end(), other) > 0) continue;
       const auto refused = transcoder->read(other, path, "");
       ASSERT_FALSE(refused) << other << " " << path;
-      EXPECT_EQ(refused.error().reason, "METHOD_NOT_ALLOWED");
+      EXPECT_EQ(refused.error().reason, ErrorReason::METHOD_NOT_ALLOWED);
       EXPECT_EQ(refused.error().code, Code::kUnimplemented);
       EXPECT_EQ(refused.error().metadata.at("allow"), joined(allowed));
     }
@@ -188,7 +188,8 @@ TEST(Routes, UnknownPathsAreNotFound) {
                            "http://localhost/v1/jobs"}) {
     const auto call = transcoder->read("GET", path, "");
     ASSERT_FALSE(call) << path;
-    EXPECT_EQ(call.error().reason, "ROUTE_NOT_FOUND") << path << ": " << call.error().message;
+    EXPECT_EQ(call.error().reason, ErrorReason::ROUTE_NOT_FOUND)
+        << path << ": " << call.error().message;
     EXPECT_EQ(call.error().code, Code::kNotFound) << path;
     EXPECT_TRUE(transcoder->methods_at(path).empty()) << path;
   }

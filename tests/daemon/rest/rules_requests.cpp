@@ -22,7 +22,7 @@ std::string read(const std::string& http_method, const std::string& target,
     EXPECT_EQ(call.error().code, Code::kInvalidArgument) << call.error().message;
     EXPECT_EQ(call.error().message.find('\n'), std::string::npos) << call.error().message;
     EXPECT_LT(call.error().message.size(), 400U);
-    return call.error().reason + " " + call.error().message;
+    return std::string(name_of(call.error().reason)) + " " + full_message(call.error());
   }
   test::Everything request;
   EXPECT_TRUE(request.ParseFromString(call->request));

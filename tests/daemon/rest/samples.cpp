@@ -54,10 +54,12 @@ int main() {
       std::cout << sample_of(*transcoder, route, random, i).dump() << '\n';
     }
   }
-  const Error wrong = rest::bad_request({{"simulate.dpi", "is too large", "SPEC_INVALID"},
-                                         {"simulate.film", "is unknown", "SPEC_INVALID"}});
+  const Error wrong =
+      rest::bad_request({{"simulate.dpi", "is too large", ErrorReason::SPEC_INVALID},
+                         {"simulate.film", "is unknown", ErrorReason::SPEC_INVALID}});
   std::cout << json{{"error", json::parse(rest::error_answer(wrong).json)}}.dump() << '\n';
-  const Error full{Code::kResourceExhausted, "too many jobs", "QUEUE_FULL", {{"max", "7"}}};
+  const Error full{
+      Code::kResourceExhausted, "too many jobs", ErrorReason::QUEUE_FULL, {{"max", "7"}}};
   std::cout << json{{"error", json::parse(rest::error_answer(full).json)}}.dump() << '\n';
   std::cout << json{{"error", json::parse(rest::error_answer(14, "gone", "").json)}}.dump() << '\n';
 }

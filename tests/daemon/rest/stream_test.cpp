@@ -32,7 +32,7 @@ TEST(Stream, ResumesAfterTheLastEvent) {
   for (const char* id : {"", "-1", "x", "1x", " 1", "99999999999999999999"}) {
     const auto refused = rules().resume(*call, id);
     ASSERT_FALSE(refused) << id;
-    EXPECT_EQ(refused.error().reason, "PARAMETER_INVALID");
+    EXPECT_EQ(refused.error().reason, ErrorReason::PARAMETER_INVALID);
   }
   const auto plain = rules().read("GET", "/r/plainStream", "");
   EXPECT_TRUE(rules().resume(*plain, "x"));

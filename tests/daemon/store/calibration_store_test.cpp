@@ -45,9 +45,9 @@ TEST_F(CalibrationStoreTest, NewestIsActiveUntilAnotherIsActivated) {
   EXPECT_TRUE(store->remove(first));
   EXPECT_FALSE(store->active(CalibrationKind::kObject).value())
       << "no other calibration becomes active";
-  EXPECT_EQ(store->get(first).error().reason, "CALIBRATION_NOT_FOUND");
-  EXPECT_EQ(store->activate(first).error().reason, "CALIBRATION_NOT_FOUND");
-  EXPECT_EQ(store->remove(first).error().reason, "CALIBRATION_NOT_FOUND");
+  EXPECT_EQ(store->get(first).error().reason, ErrorReason::CALIBRATION_NOT_FOUND);
+  EXPECT_EQ(store->activate(first).error().reason, ErrorReason::CALIBRATION_NOT_FOUND);
+  EXPECT_EQ(store->remove(first).error().reason, ErrorReason::CALIBRATION_NOT_FOUND);
 }
 
 TEST_F(CalibrationStoreTest, RepeatedRequestStoresNothing) {
@@ -80,7 +80,7 @@ TEST_F(CalibrationStoreTest, IsStoredWithTheSuccessOfItsJobOrNotAtAll) {
 TEST_F(CalibrationStoreTest, PreventsTheDeletionOfItsJob) {
   const std::int64_t job = running();
   ASSERT_TRUE(jobs->succeed(job, {}, NewCalibration{CalibrationKind::kObject, "ann", job, 0, ""}));
-  EXPECT_EQ(jobs->remove(job).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(jobs->remove(job).error().reason, ErrorReason::STATE_FORBIDS);
   now_ms += 10 * retention_times.finished_ms;
   EXPECT_TRUE(job_retention->purge());
   EXPECT_TRUE(jobs->get(job));
@@ -97,7 +97,7 @@ TEST_F(CalibrationStoreTest, RigStateOutlivesTheCapture) {
   const Job capture = jobs->create(definition, {}).value();
   EXPECT_EQ(capture.state, JobState::kRunning);
   EXPECT_EQ(capture.start_ms, now_ms);
-  EXPECT_EQ(jobs->create(definition, {}).error().reason, "STATE_FORBIDS")
+  EXPECT_EQ(jobs->create(definition, {}).error().reason, ErrorReason::STATE_FORBIDS)
       << "captures run one at a time";
   ASSERT_TRUE(store->note_capture(capture.id, place));
   ASSERT_TRUE(jobs->succeed(capture.id, {}));

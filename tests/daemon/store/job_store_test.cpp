@@ -26,7 +26,7 @@ TEST_F(JobStoreTest, RepeatedRequestReturnsTheSameJob) {
   EXPECT_EQ(jobs->create(definition, key)->id, job.id);
   const auto other = jobs->create(definition, {"CreateJob", "id-1", "other content"});
   ASSERT_FALSE(other);
-  EXPECT_EQ(other.error().reason, "REQUEST_ID_REUSED");
+  EXPECT_EQ(other.error().reason, ErrorReason::REQUEST_ID_REUSED);
   definition.owner = "bob";
   EXPECT_NE(jobs->create(definition, key)->id, job.id)
       << "another owner may use the same request id";
@@ -49,7 +49,7 @@ TEST_F(JobStoreTest, FullQueueRefusesWithoutSideEffects) {
   definition.work.verb = "simulate";
   const auto sixth = jobs->create(definition, {"CreateJob", "id", "x"});
   ASSERT_FALSE(sixth);
-  EXPECT_EQ(sixth.error().reason, "QUEUE_FULL");
+  EXPECT_EQ(sixth.error().reason, ErrorReason::QUEUE_FULL);
   EXPECT_EQ(jobs->list({})->size(), 5U);
   ASSERT_TRUE(jobs->cancel(1));
   EXPECT_TRUE(jobs->create(definition, {"CreateJob", "id", "other"}))
@@ -62,7 +62,7 @@ TEST_F(JobStoreTest, MissingInputIsNamed) {
   definition.work.inputs = {{"spot.obj", std::string(64, 'a')}};
   const auto job = jobs->create(definition, {});
   ASSERT_FALSE(job);
-  EXPECT_EQ(job.error().reason, "ASSET_MISSING");
+  EXPECT_EQ(job.error().reason, ErrorReason::ASSET_MISSING);
   EXPECT_EQ(job.error().metadata.at("asset"), "assets/" + std::string(64, 'a'));
   EXPECT_TRUE(jobs->list({})->empty());
 }
@@ -128,9 +128,10 @@ TEST_F(JobStoreTest, ThirdLossOfItsWorkerFailsTheJob) {
     ASSERT_TRUE(jobs->interrupt(id, Interruption::kWorkerLoss));
   }
   EXPECT_EQ(jobs->get(id)->state, JobState::kFailed);
-  EXPECT_EQ(jobs->get(id)->failure->error.reason, "WORKER_KILLED");
+  EXPECT_EQ(jobs->get(id)->failure->error.reason, ErrorReason::WORKER_KILLED);
   EXPECT_TRUE(jobs->executions()->empty());
-  EXPECT_EQ(jobs->interrupt(id, Interruption::kWorkerLoss).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(jobs->interrupt(id, Interruption::kWorkerLoss).error().reason,
+            ErrorReason::STATE_FORBIDS);
 }
 
 TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsOver) {
@@ -142,7 +143,7 @@ TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsOver) {
   }
   const Job lost = jobs->get(id).value();
   EXPECT_EQ(lost.state, JobState::kFailed);
-  EXPECT_EQ(lost.failure->error.reason, "DAEMON_LOST");
+  EXPECT_EQ(lost.failure->error.reason, ErrorReason::DAEMON_LOST);
   EXPECT_EQ(lost.failure->error.code, Code::kInternal);
   const Job retried = add();
   ASSERT_TRUE(jobs->start(retried.id));
@@ -175,7 +176,7 @@ TEST_F(JobStoreTest, FullDatabaseRefusesWithoutSideEffectsAndRecovers) {
   const auto refused = jobs->create(definition, {"CreateJob", "id", "x"});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
-  EXPECT_EQ(refused.error().reason, "DISK_FULL");
+  EXPECT_EQ(refused.error().reason, ErrorReason::DISK_FULL);
   EXPECT_EQ(jobs->list({})->size(), 1U);
   EXPECT_EQ(jobs->get(first)->state, JobState::kSucceeded);
   ASSERT_TRUE(database->run("PRAGMA max_page_count=1000000"));
@@ -200,12 +201,12 @@ TEST_F(JobStoreTest, CancelledJobStaysCancelledEvenIfItsWorkerSucceeds) {
 
 TEST_F(JobStoreTest, FinishedJobsCannotBeCancelledAndOpenOnesNotDeleted) {
   const std::int64_t id = add().id;
-  EXPECT_EQ(jobs->remove(id).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(jobs->remove(id).error().reason, ErrorReason::STATE_FORBIDS);
   complete(id);
-  EXPECT_EQ(jobs->cancel(id).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(jobs->cancel(id).error().reason, ErrorReason::STATE_FORBIDS);
   EXPECT_EQ(jobs->cancel(id).error().metadata.at("state"), "SUCCEEDED");
   EXPECT_TRUE(jobs->remove(id));
-  EXPECT_EQ(jobs->get(id).error().reason, "JOB_NOT_FOUND");
+  EXPECT_EQ(jobs->get(id).error().reason, ErrorReason::JOB_NOT_FOUND);
   EXPECT_FALSE(std::filesystem::exists(layout.artifacts(id)));
 }
 
@@ -242,7 +243,8 @@ TEST_F(JobStoreTest, ProgressIsKeptOnlyWhileRunning) {
   ASSERT_TRUE(jobs->report(id, {0.5, "velocity", 0.1, 7}));
   EXPECT_EQ(jobs->get(id)->progress.phase, "velocity");
   EXPECT_EQ(jobs->events(id, 0, 10)->back().kind, EventKind::kProgress);
-  ASSERT_TRUE(jobs->give_up(id, {{Code::kInternal, "it broke", "COMPUTATION_FAILED", {}}, 4, {}}));
+  ASSERT_TRUE(jobs->give_up(
+      id, {{Code::kInternal, "it broke", ErrorReason::COMPUTATION_FAILED, {}}, 4, {}}));
   EXPECT_EQ(states(id), (States{JobState::kQueued, JobState::kRunning, JobState::kFailed}));
   EXPECT_EQ(jobs->get(id)->failure->error.message, "it broke");
   EXPECT_EQ(jobs->get(id)->failure->exit_status, 4);
@@ -254,8 +256,8 @@ TEST_F(JobStoreTest, EventNumbersNeverRepeatAndUnknownOnesAreRefused) {
   ASSERT_TRUE(jobs->report(id, {0.5, "x", 0, 0}));
   complete(add("2").id);
   const std::int64_t last = jobs->last_seq().value();
-  EXPECT_EQ(jobs->events(id, last + 1, 10).error().reason, "EVENTS_GONE");
-  EXPECT_EQ(jobs->events(id, -1, 10).error().reason, "EVENTS_GONE");
+  EXPECT_EQ(jobs->events(id, last + 1, 10).error().reason, ErrorReason::EVENTS_GONE);
+  EXPECT_EQ(jobs->events(id, -1, 10).error().reason, ErrorReason::EVENTS_GONE);
   EXPECT_TRUE(jobs->events(id, last, 10)->empty());
   open();
   EXPECT_GT(jobs->last_seq().value(), last);
@@ -285,10 +287,10 @@ TEST_F(JobStoreTest, OnlyQueuedJobsOfOneOwnerMove) {
   add();
   add("2", "bob");
   complete(add("3").id);
-  EXPECT_EQ(queue->move(1, 2).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(queue->move(1, 3).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(queue->move(3, 1).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(queue->move(1, 99).error().reason, "JOB_NOT_FOUND");
+  EXPECT_EQ(queue->move(1, 2).error().reason, ErrorReason::STATE_FORBIDS);
+  EXPECT_EQ(queue->move(1, 3).error().reason, ErrorReason::STATE_FORBIDS);
+  EXPECT_EQ(queue->move(3, 1).error().reason, ErrorReason::STATE_FORBIDS);
+  EXPECT_EQ(queue->move(1, 99).error().reason, ErrorReason::JOB_NOT_FOUND);
 }
 
 TEST_F(JobStoreTest, PauseSurvivesARestart) {
@@ -344,7 +346,7 @@ TEST_F(JobStoreTest, InvalidDatabaseFileIsRefused) {
   std::ofstream(path) << std::string(5000, 'x');
   const auto opened = Database::open(path, "");
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().reason, "STORE_FAILED");
+  EXPECT_EQ(opened.error().reason, ErrorReason::STORE_FAILED);
   EXPECT_NE(opened.error().message.find("junk.db"), std::string::npos);
 }
 
@@ -377,7 +379,7 @@ TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
   EXPECT_TRUE(queue->waiting()->empty());
   const auto second = jobs->create(new_dip(), {});
   ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(second.error().reason, ErrorReason::STATE_FORBIDS);
   for (int i = 0; i < 5; ++i) add(std::to_string(i));  // a full queue must not affect dips
   ASSERT_TRUE(device_jobs->end(dip.id, JobState::kCancelled, {}, "", {}, ""));
   EXPECT_TRUE(jobs->create(new_dip(), {}));
@@ -395,7 +397,7 @@ TEST_F(JobStoreTest, PrintsAreNotQueuedOrCachedAndRunOneAtATime) {
   const Job print = jobs->create(new_print(), {}).value();
   EXPECT_EQ(print.state, JobState::kRunning);
   EXPECT_TRUE(queue->waiting()->empty());
-  EXPECT_EQ(jobs->create(new_print(), {}).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(jobs->create(new_print(), {}).error().reason, ErrorReason::STATE_FORBIDS);
   EXPECT_TRUE(jobs->create(new_dip(), {})) << "a dip uses the rig, not the printer";
   ASSERT_TRUE(device_jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   EXPECT_EQ(jobs->create(new_print(), {})->state, JobState::kRunning);
@@ -433,12 +435,13 @@ TEST_F(JobStoreTest, RecordOfADipIsAlwaysKept) {
       << "a cancelled dip stays CANCELLING until its end";
   std::filesystem::create_directories(layout.artifacts(dip.id));
   std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
-  const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};
+  const JobFailure failure{
+      {Code::kFailedPrecondition, "stalled", ErrorReason::RIG_FAULTED, {}}, {}, {}};
   ASSERT_TRUE(device_jobs->end(dip.id, JobState::kFailed, failure, "end",
                                {{"report.json", 2, "", "application/json"}}, ""));
   open();
   EXPECT_EQ(jobs->get(dip.id)->state, JobState::kFailed);
-  EXPECT_EQ(jobs->get(dip.id)->failure->error.reason, "RIG_FAULTED");
+  EXPECT_EQ(jobs->get(dip.id)->failure->error.reason, ErrorReason::RIG_FAULTED);
   EXPECT_TRUE(jobs->artifact(dip.id, "report.json"));
   EXPECT_TRUE(std::filesystem::exists(layout.artifacts(dip.id) / "report.json"));
 }

@@ -198,7 +198,7 @@ TEST_F(Retention, QueueLimitAppliesToEachOwner) {
   const auto refused = jobs->create(definition, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
-  EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
+  EXPECT_EQ(refused.error().reason, ErrorReason::QUOTA_EXCEEDED);
   EXPECT_EQ(refused.error().metadata.at("quota"), "jobs");
   EXPECT_EQ(refused.error().metadata.at("used"), "2");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
@@ -220,7 +220,7 @@ TEST_F(Retention, JobsAreAcceptedBelowTheByteQuota) {
     definition.traits.computed = definition.work.verb == "simulate";
     const auto refused = jobs->create(definition, {});
     ASSERT_FALSE(refused) << verb;
-    EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
+    EXPECT_EQ(refused.error().reason, ErrorReason::QUOTA_EXCEEDED);
     EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   }
   ASSERT_TRUE(job_retention->pin(second.id, true));

@@ -32,7 +32,7 @@ class Schema : public ::testing::Test {
     const auto before = files();
     const auto refused = open_store(layout.database());
     ASSERT_FALSE(refused) << what;
-    EXPECT_EQ(refused.error().reason, "STORE_DIFFERS") << what;
+    EXPECT_EQ(refused.error().reason, ErrorReason::STORE_DIFFERS) << what;
     for (const std::string& part :
          {layout.database().string() + ": ", std::string("another build of hydroprint"),
           "set the state folder aside (rename " + layout.root.string() + ")"}) {

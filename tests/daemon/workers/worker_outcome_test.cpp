@@ -8,18 +8,22 @@ namespace {
 
 int exited(int status) { return status << 8; }
 
-std::string reason(int wait_status, const char* words = "",
+ErrorReason reason(int wait_status, const char* words = "",
                    StopReason stopped = StopReason::kNothing) {
   return judge(wait_status, stopped, words)->error.reason;
 }
 
 TEST(Outcome, ExitZeroIsSuccess) { EXPECT_FALSE(judge(0, StopReason::kNothing, "warning: x\n")); }
 
-TEST(Outcome, RefusedInputHasTheWorkersLastLine) {
-  const auto failure = judge(exited(3), StopReason::kNothing, "note\nspot.obj:7: NaN; fix it\n\n");
+TEST(Outcome, RefusedInputHasTheWorkersMessage) {
+  const auto failure =
+      judge(exited(3), StopReason::kNothing, "for people\n",
+            "a line\n"
+            R"({"error": {"message": "spot.obj:7: NaN; fix it", "exit_status": 3}})"
+            "\n\n");
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->error.code, Code::kInvalidArgument);
-  EXPECT_EQ(failure->error.reason, "INPUT_REFUSED");
+  EXPECT_EQ(failure->error.reason, ErrorReason::INPUT_REFUSED);
   EXPECT_EQ(failure->error.message, "spot.obj:7: NaN; fix it");
   EXPECT_EQ(failure->exit_status, 3);
   EXPECT_FALSE(failure->signal);
@@ -29,40 +33,51 @@ TEST(Outcome, PrintedReasonIsUsedIfKnown) {
   const auto told = [](int status, const std::string& answer) {
     return judge(status, StopReason::kNothing, "words", answer)->error.reason;
   };
-  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED","metadata":{}}})"
+  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED"}})"
                             "\n"),
-            "MIRRORED");
-  EXPECT_EQ(told(exited(4), R"({"error":{"reason":"CAMERA_GONE"}})"), "CAMERA_GONE");
+            ErrorReason::MIRRORED);
+  EXPECT_EQ(told(exited(4), R"({"error":{"reason":"CAMERA_GONE"}})"), ErrorReason::CAMERA_GONE);
   EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED","message":"frames[1]"}})"),
-            "MIRRORED");
-  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MADE_UP"}})"), "INPUT_REFUSED");
-  EXPECT_EQ(told(exited(3), R"({"error":"reason"})"), "INPUT_REFUSED");
-  EXPECT_EQ(told(exited(3), std::string(100000, '{')), "INPUT_REFUSED");
-  EXPECT_EQ(told(SIGSEGV, R"({"error":{"reason":"MIRRORED"}})"), "WORKER_KILLED");
+            ErrorReason::MIRRORED);
+  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MADE_UP"}})"), ErrorReason::INPUT_REFUSED);
+  EXPECT_EQ(told(exited(3), R"({"error":"reason"})"), ErrorReason::INPUT_REFUSED);
+  EXPECT_EQ(told(exited(3), std::string(100000, '{')), ErrorReason::INPUT_REFUSED);
+  EXPECT_EQ(told(SIGSEGV, R"({"error":{"reason":"MIRRORED"}})"), ErrorReason::WORKER_KILLED);
 }
 
-TEST(Outcome, MessageAndFieldAreThoseOfTheWorkersError) {
-  const auto failure = judge(exited(3), StopReason::kNothing, "hydroprint-worker: dpi: too large\n",
-                             R"({"error":{"message":"too large","metadata":{"field":"dpi"}}})");
+TEST(Outcome, MessageAndFieldAreThoseOfTheWorkersFailure) {
+  const auto failure =
+      judge(exited(3), StopReason::kNothing, "hydroprint-worker: --dpi: too large\n",
+            R"({"error":{"message":"too large","field":"dpi"}})");
   EXPECT_EQ(failure->error.message, "too large");
-  EXPECT_EQ(failure->error.metadata.at("field"), "dpi");
-  const auto silent =
-      judge(exited(3), StopReason::kNothing, "hydroprint-worker: dpi: too large\n", "{");
-  EXPECT_EQ(silent->error.message, "dpi: too large") << "without the program's name";
-  EXPECT_TRUE(silent->error.metadata.empty());
+  EXPECT_EQ(failure->error.field, "dpi");
+}
+
+// The worker is untrusted: a failure is read like a request, and nothing is taken from its stderr.
+TEST(Outcome, AFailureThatIsNotOneIsNotUsed) {
+  for (const std::string bad :
+       {R"({"error":{"message":"x","field":7}})", R"({"error":{"message":"x","remark":"y"}})",
+        R"({"error":{"message":"x","reason":"MADE_UP"}})",
+        R"({"error":{"message":"x","code":NaN}})", R"({"error":["x"]})", "{"}) {
+    const auto failure = judge(exited(3), StopReason::kNothing, "spot.obj: bad\n", bad);
+    EXPECT_EQ(failure->error.message, "the worker refused its input without a message") << bad;
+    EXPECT_EQ(failure->error.field, "") << bad;
+  }
+  const std::string long_text = R"({"error":{"message":")" + std::string(10 << 20, 'x') + "\"}}";
+  EXPECT_LE(judge(exited(3), StopReason::kNothing, "", long_text)->error.message.size(), 1000U);
 }
 
 TEST(Outcome, EachKindOfEndHasItsReason) {
-  EXPECT_EQ(reason(exited(2)), "INPUT_REFUSED");
-  EXPECT_EQ(reason(exited(4), "it failed"), "COMPUTATION_FAILED");
-  EXPECT_EQ(reason(exited(127)), "WORKER_UNUSABLE");
-  EXPECT_EQ(reason(exited(1)), "COMPUTATION_FAILED");
-  EXPECT_EQ(reason(SIGSEGV), "WORKER_KILLED");
-  EXPECT_EQ(reason(SIGKILL), "WORKER_KILLED");
-  EXPECT_EQ(reason(SIGXCPU), "TIME_LIMIT");
-  EXPECT_EQ(reason(SIGXFSZ), "OUTPUT_LIMIT");
-  EXPECT_EQ(reason(SIGKILL, "", StopReason::kTime), "TIME_LIMIT");
-  EXPECT_EQ(reason(SIGKILL, "", StopReason::kMemory), "MEMORY_LIMIT");
+  EXPECT_EQ(reason(exited(2)), ErrorReason::INPUT_REFUSED);
+  EXPECT_EQ(reason(exited(4), "it failed"), ErrorReason::COMPUTATION_FAILED);
+  EXPECT_EQ(reason(exited(127)), ErrorReason::WORKER_UNUSABLE);
+  EXPECT_EQ(reason(exited(1)), ErrorReason::COMPUTATION_FAILED);
+  EXPECT_EQ(reason(SIGSEGV), ErrorReason::WORKER_KILLED);
+  EXPECT_EQ(reason(SIGKILL), ErrorReason::WORKER_KILLED);
+  EXPECT_EQ(reason(SIGXCPU), ErrorReason::TIME_LIMIT);
+  EXPECT_EQ(reason(SIGXFSZ), ErrorReason::OUTPUT_LIMIT);
+  EXPECT_EQ(reason(SIGKILL, "", StopReason::kTime), ErrorReason::TIME_LIMIT);
+  EXPECT_EQ(reason(SIGKILL, "", StopReason::kMemory), ErrorReason::MEMORY_LIMIT);
 }
 
 TEST(Outcome, LimitsAreToldByReasonCodesAndNotByWords) {
@@ -71,11 +86,11 @@ TEST(Outcome, LimitsAreToldByReasonCodesAndNotByWords) {
                  R"({"error":{"reason":")" + reason + "\"}}")
         ->error;
   };
-  EXPECT_EQ(told("OUT_OF_MEMORY").reason, "MEMORY_LIMIT");
-  EXPECT_EQ(told("DISK_FULL").reason, "DISK_FULL");
-  EXPECT_EQ(told("FILE_LIMIT").reason, "OUTPUT_LIMIT");
+  EXPECT_EQ(told("MEMORY_LIMIT").reason, ErrorReason::MEMORY_LIMIT);
+  EXPECT_EQ(told("DISK_FULL").reason, ErrorReason::DISK_FULL);
+  EXPECT_EQ(told("OUTPUT_LIMIT").reason, ErrorReason::OUTPUT_LIMIT);
   EXPECT_EQ(told("DISK_FULL").code, Code::kResourceExhausted);
-  EXPECT_EQ(reason(exited(4), "out of memory, the disk is full"), "COMPUTATION_FAILED");
+  EXPECT_EQ(reason(exited(4), "out of memory, the disk is full"), ErrorReason::COMPUTATION_FAILED);
 }
 
 TEST(Outcome, OutputBecomesOnePrintableLine) {

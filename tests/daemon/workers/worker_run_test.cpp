@@ -28,7 +28,7 @@ class NotingExecutor : public WorkerExecutor {
   [[nodiscard]] int capacity() const override { return 1; }
   [[nodiscard]] Result<std::string> start(const Execution&, const Launch& launch) override {
     started_with.emplace(launch);
-    if (refuses) return fail(Code::kInternal, "refused", "WORKER_UNUSABLE");
+    if (refuses) return fail(Code::kInternal, "refused", ErrorReason::WORKER_UNUSABLE);
     return "h";
   }
   [[nodiscard]] Observations poll(const std::vector<Execution>&) override { return {}; }
@@ -71,7 +71,7 @@ TEST_F(WorkerRunTest, WaitingAtTheEngineDoesNotUseUpTheTimeLimit) {
   EXPECT_FALSE(step(WorkerRuns{}));
   EXPECT_EQ(executor.cancels, std::vector<CancelHow>{CancelHow::kGently});
   EXPECT_TRUE(step(WorkerEnds{.wait_status = SIGTERM}));
-  EXPECT_EQ(job().failure->error.reason, "TIME_LIMIT");
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::TIME_LIMIT);
 }
 
 TEST_F(WorkerRunTest, CancelledJobDoesNotShowAsWaiting) {
@@ -84,9 +84,8 @@ TEST_F(WorkerRunTest, CancelledJobDoesNotShowAsWaiting) {
 
 TEST_F(WorkerRunTest, RefusedInputNamesTheFieldOfTheJob) {
   start({std::chrono::seconds(60)});
-  EXPECT_TRUE(step(
-      WorkerEnds{.wait_status = 3 << 8,
-                 .answer = R"({"error":{"message":"too large","metadata":{"field":"dpi"}}})"}));
+  EXPECT_TRUE(step(WorkerEnds{.wait_status = 3 << 8,
+                              .answer = R"({"error":{"message":"too large","field":"dpi"}})"}));
   EXPECT_EQ(to_message(job()).error().field(), "simulate.dpi");
   EXPECT_EQ(to_message(job()).error().message(), "too large");
 }
@@ -101,13 +100,13 @@ TEST_F(WorkerRunTest, NoAnswerChangesNothingBeforeTheLimit) {
 TEST_F(WorkerRunTest, NoAnswerForTooLongFailsTheJob) {
   start({std::chrono::seconds(60), std::chrono::milliseconds(0)});
   EXPECT_TRUE(step(std::nullopt));
-  EXPECT_EQ(job().failure->error.reason, "WORKER_UNUSABLE");
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::WORKER_UNUSABLE);
 }
 
 TEST_F(WorkerRunTest, ExceededMemoryIsTheLimitAndNotAKill) {
   start({std::chrono::seconds(60)});
   EXPECT_TRUE(step(WorkerEnds{.wait_status = SIGKILL, .exceeded_memory = true}));
-  EXPECT_EQ(job().failure->error.reason, "MEMORY_LIMIT");
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::MEMORY_LIMIT);
   EXPECT_FALSE(std::filesystem::exists(layout.run(id).root));
 }
 
@@ -209,7 +208,7 @@ TEST_F(SlowShare, MissingFileAndRefusedStartFailTheJob) {
   woken = {};
   begin();
   EXPECT_TRUE(testing::wait_until([&] { return step(std::nullopt); }));
-  EXPECT_EQ(job().failure->error.reason, "ASSET_MISSING");
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::ASSET_MISSING);
 }
 
 TEST_F(SlowShare, DaemonThatStopsKeepsTheJob) {

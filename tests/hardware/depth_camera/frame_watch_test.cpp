@@ -29,7 +29,7 @@ TEST(FrameWatch, TenIdenticalFramesMeanAFrozenCamera) {
   }
   const Status frozen = watch.look(frame(700));
   ASSERT_FALSE(frozen);
-  EXPECT_EQ(frozen.error().reason, "CAMERA_FROZEN");
+  EXPECT_EQ(frozen.error().reason, ErrorReason::CAMERA_FROZEN);
 }
 
 TEST(FrameWatch, TenEmptyFramesMeanABlackCameraButAFewDoNot) {
@@ -45,7 +45,7 @@ TEST(FrameWatch, TenEmptyFramesMeanABlackCameraButAFewDoNot) {
   for (int i = 1; i < FrameWatch::kMostBad; ++i) EXPECT_TRUE(watch.look(black()));
   const Status dark = watch.look(black());
   ASSERT_FALSE(dark);
-  EXPECT_EQ(dark.error().reason, "CAMERA_BLACK");
+  EXPECT_EQ(dark.error().reason, ErrorReason::CAMERA_BLACK);
 }
 
 }  // namespace

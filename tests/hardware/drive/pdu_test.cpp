@@ -34,10 +34,10 @@ TEST(Frame, RepliesMatchTheExamplesInTheSpecification) {
 TEST(Frame, ExceptionsAreReportedAsTheDrivesReply) {
   const auto refused = decode_reply(kRead, Bytes({1, 0x83, 2}));
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "DRIVE_REFUSED");
+  EXPECT_EQ(refused.error().reason, ErrorReason::DRIVE_REFUSED);
   EXPECT_EQ(refused.error().code, Code::kFailedPrecondition);
   EXPECT_EQ(refused.error().metadata.at("exception"), "2");
-  EXPECT_EQ(decode_reply(kRead, Bytes({1, 0x83, 6})).error().reason, "DRIVE_BUSY");
+  EXPECT_EQ(decode_reply(kRead, Bytes({1, 0x83, 6})).error().reason, ErrorReason::DRIVE_BUSY);
 }
 
 TEST(Frame, OtherBytesAreNotAReply) {
@@ -59,7 +59,7 @@ TEST(Frame, OtherBytesAreNotAReply) {
   for (const auto& [request, reply] : cases) {
     const auto words = decode_reply(request, reply);
     ASSERT_FALSE(words);
-    EXPECT_EQ(words.error().reason, "REPLY_INVALID");
+    EXPECT_EQ(words.error().reason, ErrorReason::REPLY_INVALID);
   }
 }
 

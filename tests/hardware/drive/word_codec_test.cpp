@@ -63,7 +63,7 @@ TEST(Codec, ValuesThatDoNotFitTheRegistersAreRefused) {
   for (const auto& [format, value] : cases) {
     const auto words = encode(format, value);
     ASSERT_FALSE(words) << value;
-    EXPECT_EQ(words.error().reason, "LIMIT_EXCEEDED");
+    EXPECT_EQ(words.error().reason, ErrorReason::LIMIT_EXCEEDED);
     EXPECT_EQ(words.error().code, Code::kOutOfRange);
   }
 }

@@ -112,7 +112,7 @@ TEST(Printer, ReportsAnAbortedJob) {
   ASSERT_TRUE(sent);
   const auto ended = printer.follow(sent->id);
   ASSERT_FALSE(ended);
-  EXPECT_EQ(ended.error().reason, "PRINT_ABORTED");
+  EXPECT_EQ(ended.error().reason, ErrorReason::PRINT_ABORTED);
   EXPECT_NE(ended.error().message.find("aborted"), std::string::npos);
 }
 
@@ -132,7 +132,7 @@ TEST(Printer, CancelsAJobAndReportsItsEnd) {
       },
       [&] { return ++polls > 2; });
   ASSERT_FALSE(ended);
-  EXPECT_EQ(ended.error().reason, "PRINT_CANCELED") << ended.error().message;
+  EXPECT_EQ(ended.error().reason, ErrorReason::PRINT_CANCELED) << ended.error().message;
   EXPECT_FALSE(printer.cancel(sent->id));
 }
 
@@ -140,12 +140,13 @@ TEST(Printer, EndsEveryCallWhenTheCallerGivesUp) {
   const Listener silent;
   std::atomic<bool> gives_up = false;
   const Printer printer(silent.address(), quick(), [&] { return gives_up.load(); });
-  std::thread asked([&] { EXPECT_EQ(printer.attributes().error().reason, "PRINTER_LEFT"); });
+  std::thread asked(
+      [&] { EXPECT_EQ(printer.attributes().error().reason, ErrorReason::CANCELLED); });
   (void)silent.accept();  // connected, but no data arrives
   gives_up = true;
   asked.join();
-  EXPECT_EQ(printer.print({some_bytes(1000)}).error().reason, "PRINTER_LEFT");
-  EXPECT_EQ(printer.follow(1).error().reason, "PRINTER_LEFT");
+  EXPECT_EQ(printer.print({some_bytes(1000)}).error().reason, ErrorReason::CANCELLED);
+  EXPECT_EQ(printer.follow(1).error().reason, ErrorReason::CANCELLED);
 }
 
 TEST(Printer, ReportsAnUnsupportedFormat) {
@@ -153,7 +154,7 @@ TEST(Printer, ReportsAnUnsupportedFormat) {
   const auto sent = Printer(there.address()).print({some_bytes(2'000'000), "image/tiff"});
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().code, Code::kInvalidArgument);
-  EXPECT_EQ(sent.error().reason, "FORMAT_NOT_SUPPORTED") << sent.error().message;
+  EXPECT_EQ(sent.error().reason, ErrorReason::FORMAT_NOT_SUPPORTED) << sent.error().message;
 }
 
 TEST(Printer, ReportsAnUnknownJob) {
@@ -170,7 +171,7 @@ TEST(Printer, DetectsAPrinterThatIsLostDuringAJob) {
     if (report.state == JobState::kProcessing) there.pull_the_plug();
   });
   ASSERT_FALSE(ended);
-  EXPECT_EQ(ended.error().reason, "PRINTER_LOST");
+  EXPECT_EQ(ended.error().reason, ErrorReason::PRINTER_LOST);
   EXPECT_NE(ended.error().message.find("may or may not have been printed"), std::string::npos);
 }
 
@@ -181,12 +182,12 @@ TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
   timing.answer = milliseconds(300);
   timing.upload = milliseconds(700);
   const Printer printer(silent.address(), timing);
-  EXPECT_EQ(printer.attributes().error().reason, "PRINTER_SILENT");
+  EXPECT_EQ(printer.attributes().error().reason, ErrorReason::PRINTER_SILENT);
   // The document is larger than the system's socket buffers, so sending it blocks.
   const std::vector<unsigned char> large(40'000'000);
   const auto sent = printer.print({large});
   ASSERT_FALSE(sent);
-  EXPECT_EQ(sent.error().reason, "PRINTER_SILENT");
+  EXPECT_EQ(sent.error().reason, ErrorReason::PRINTER_SILENT);
   EXPECT_NE(sent.error().message.find("The printer may have accepted the job"), std::string::npos);
 }
 
@@ -204,7 +205,8 @@ TEST(Printer, TimesOutWhenThePrinterRespondsByteByByte) {
   });
   Timing timing = quick();
   timing.answer = milliseconds(400);
-  EXPECT_EQ(Printer(listener.address(), timing).attributes().error().reason, "PRINTER_SILENT");
+  EXPECT_EQ(Printer(listener.address(), timing).attributes().error().reason,
+            ErrorReason::PRINTER_SILENT);
   stop = true;
   slow_client.join();
 }
@@ -222,10 +224,10 @@ TEST(Printer, ReportsServersThatAreNotPrinters) {
     }
     ::close(file);
   });
-  EXPECT_EQ(Printer(listener.address()).attributes().error().reason, "PRINTER_NOT_IPP");
+  EXPECT_EQ(Printer(listener.address()).attributes().error().reason, ErrorReason::PRINTER_NOT_IPP);
   server.join();
   const auto nobody = parse_address("ipp://127.0.0.1:1/ipp/print");
-  EXPECT_EQ(Printer(*nobody).attributes().error().reason, "PRINTER_UNREACHABLE");
+  EXPECT_EQ(Printer(*nobody).attributes().error().reason, ErrorReason::PRINTER_UNREACHABLE);
 }
 
 }  // namespace

@@ -15,14 +15,14 @@ TEST(Errors, EveryCauseHasANameAReasonAndARemedy) {
     const auto cause = static_cast<Cause>(i);
     EXPECT_TRUE(names.insert(name(cause)).second);
     const Error error = failed(cause);
-    EXPECT_FALSE(error.reason.empty());
+    EXPECT_NE(error.reason, ErrorReason{});
     EXPECT_EQ(error.metadata.at("cause"), name(cause));
     EXPECT_NE(error.message.find("then reset, arm and home"), std::string::npos);
   }
 }
 
 TEST(Errors, TheStopButtonHasItsOwnReason) {
-  EXPECT_EQ(failed(Cause::kStopButton).reason, "STOP_BUTTON");
+  EXPECT_EQ(failed(Cause::kStopButton).reason, ErrorReason::STOP_BUTTON);
 }
 
 TEST(Errors, NoRefusalIsRetriedAutomatically) {

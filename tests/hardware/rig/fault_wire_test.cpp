@@ -284,7 +284,7 @@ TEST_P(Fault, AnUnexpectedDriveIsNeitherArmedNorCommanded) {
   const auto controller = Controller::make({}, other, drive.endpoint());
   ASSERT_TRUE(controller);
   ASSERT_TRUE(wait_until([&] { return (*controller)->trouble().has_value(); }));
-  EXPECT_EQ((*controller)->trouble()->reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ((*controller)->trouble()->reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
   EXPECT_EQ((*controller)->snapshot().condition.state, State::kOffline);
   EXPECT_EQ(refusal((*controller)->arm()), "DRIVE_CONFIG_UNSAFE");
   EXPECT_EQ(drive.mode(), "off");
@@ -297,7 +297,7 @@ TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
     WiredRig rig(GetParam(), {.arguments = unsafe});
     ASSERT_TRUE(rig.becomes(State::kDisarmed));
     EXPECT_EQ(refusal(rig->arm()), "DRIVE_CONFIG_UNSAFE");
-    EXPECT_EQ(rig->trouble().value_or(Error{}).reason, "DRIVE_CONFIG_UNSAFE");
+    EXPECT_EQ(rig->trouble().value_or(Error{}).reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
     EXPECT_EQ(rig.drive().mode(), "off");
   }
 }

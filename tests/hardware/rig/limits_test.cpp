@@ -49,7 +49,7 @@ TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedWithTheRequiredValue
   config.keep_out_mm = 16.99;
   const Status refused = check(config, test_profile());
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "CONFIG_INVALID");
+  EXPECT_EQ(refused.error().reason, ErrorReason::CONFIG_INVALID);
   EXPECT_NE(refused.error().message.find("rig.keep_out_mm is 16.99; it must be at least 17"),
             std::string::npos)
       << refused.error().message;
@@ -127,7 +127,7 @@ TEST(Limits, ATargetIsRefusedExactlyOutsideTheSoftLimits) {
   for (const double bad : {-1e-9, 300.0000001, kNaN, kInfinity, -kInfinity}) {
     const Status refused = check_target(config, bad);
     ASSERT_FALSE(refused) << bad;
-    EXPECT_EQ(refused.error().reason, "LIMIT_EXCEEDED");
+    EXPECT_EQ(refused.error().reason, ErrorReason::LIMIT_EXCEEDED);
     EXPECT_EQ(refused.error().metadata.at("axis"), "position");
     EXPECT_EQ(refused.error().metadata.at("min"), "0");
     EXPECT_EQ(refused.error().metadata.at("max"), "300");

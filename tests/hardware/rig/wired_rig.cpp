@@ -44,7 +44,7 @@ MotionReport WiredRig::finish(std::uint64_t motion, double seconds) const {
 
 std::string refusal(std::future<Answer> answer) {
   const Answer got = answer.get();
-  return got ? "" : got.error().reason;
+  return std::string(got ? "" : name_of(got.error().reason));
 }
 
 }  // namespace hydroprint::rig

@@ -230,8 +230,8 @@ TEST(Check, ReasonsAreSpecInvalidUnlessAFieldHasItsOwn) {
   spec.mutable_texture()->set_name(std::string(256, 'x'));
   const auto violations = check(spec);
   ASSERT_EQ(violations.size(), 2U);
-  EXPECT_EQ(violations[0].reason, "NAME_INVALID");
-  EXPECT_EQ(violations[1].reason, "SPEC_INVALID");
+  EXPECT_EQ(violations[0].reason, ErrorReason::NAME_INVALID);
+  EXPECT_EQ(violations[1].reason, ErrorReason::SPEC_INVALID);
 }
 
 TEST(Check, KeysAndValuesOfAMapAreTexts) {

@@ -48,13 +48,13 @@ TEST(ParallelFor, GivesTheSameNumbersForAnyNumberOfThreads) {
 TEST(ParallelFor, ReturnsTheErrorOfTheIndexThatFails) {
   for (const int threads : {1, 2, 4}) {
     const auto status = parallel_for(with_threads(threads), "x", 300, [](std::size_t i) -> Status {
-      if (i == 137) return fail(Code::kOutOfRange, "index 137", "HERE");
+      if (i == 137) return fail(Code::kOutOfRange, "index 137", ErrorReason::SPEC_INVALID);
       return {};
     });
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, Code::kOutOfRange);
     EXPECT_EQ(status.error().message, "index 137");
-    EXPECT_EQ(status.error().reason, "HERE");
+    EXPECT_EQ(status.error().reason, ErrorReason::SPEC_INVALID);
   }
 }
 

@@ -31,12 +31,14 @@ TEST(ExitStatus, InternalErrorsAreFailed) {
 }
 
 TEST(ExitStatus, AFullDiskIsBadInputAndFullMemoryIsFailed) {
-  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", "DISK_FULL", {}}), ExitStatus::kBadInput);
-  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", "OUT_OF_MEMORY", {}}), ExitStatus::kFailed);
+  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", ErrorReason::DISK_FULL, {}}),
+            ExitStatus::kBadInput);
+  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", ErrorReason::MEMORY_LIMIT, {}}),
+            ExitStatus::kFailed);
 }
 
 Result<int> half(int value) {
-  if (value % 2 != 0) return fail(Code::kInvalidArgument, "odd", "ODD");
+  if (value % 2 != 0) return fail(Code::kInvalidArgument, "odd", ErrorReason::SPEC_INVALID);
   return value / 2;
 }
 
@@ -53,7 +55,7 @@ TEST(Result, MacrosPassErrorsOnUnchanged) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, Code::kInvalidArgument);
     EXPECT_EQ(result.error().message, "odd");
-    EXPECT_EQ(result.error().reason, "ODD");
+    EXPECT_EQ(result.error().reason, ErrorReason::SPEC_INVALID);
   }
 }
 

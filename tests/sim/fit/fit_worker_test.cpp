@@ -212,7 +212,7 @@ TEST_F(FitWorker, ExplainsWhyTheInkRatioIsHeldWithoutAnInkImage) {
   const Ended ended = testing::run(fit({"--free", "ink_ratio"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json ink = named(report().at("undetermined"), "ink_ratio_mm");
-  EXPECT_NE(ink.at("reason").get<std::string>().find("--ink-image"), std::string::npos);
+  EXPECT_NE(ink.at("reason").get<std::string>().find("printed image"), std::string::npos);
   EXPECT_NE(ended.out.find("ink_ratio_mm is not determined"), std::string::npos) << ended.out;
   EXPECT_EQ(report().at("run").at("warnings").at(0).at("code"), "NOTHING_DETERMINED");
 }

@@ -129,7 +129,7 @@ TEST(Dip, AContactThatMissesTheFilmIsRefused) {
   const auto d = dip(sample::icosphere(10, 2), options, {});
   ASSERT_FALSE(d);
   EXPECT_EQ(d.error().code, Code::kFailedPrecondition);
-  EXPECT_EQ(d.error().reason, "CONTACT_MISSES_FILM");
+  EXPECT_EQ(d.error().reason, ErrorReason::CONTACT_MISSES_FILM);
 }
 
 TEST(Dip, GoesNoDeeperThanRequestedOrThanTheObject) {

@@ -91,7 +91,7 @@ TEST(PoseFit, RefusesANanStart) {
   const auto fit = fit_pose(plate, points_of_a_plate(800), {}, start, Pose::Identity(), {},
                             testing::two_threads());
   ASSERT_FALSE(fit);
-  EXPECT_EQ(fit.error().reason, "TOO_FEW_POINTS");
+  EXPECT_EQ(fit.error().reason, ErrorReason::TOO_FEW_POINTS);
 }
 
 }  // namespace

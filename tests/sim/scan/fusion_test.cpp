@@ -59,7 +59,7 @@ TEST(Fusion, APixelMissingInMostFramesStaysMissing) {
 
 std::string reason(const std::vector<DepthFrame>& frames) {
   const auto fused = fuse(frames, {}, {});
-  return fused ? "" : fused.error().reason;
+  return std::string(fused ? "" : name_of(fused.error().reason));
 }
 
 TEST(Fusion, RefusesFramesOfAFaultyCamera) {

@@ -124,7 +124,7 @@ TEST(Sweep, NamesTheFrameThatWasLost) {
   for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));
   const auto lost = fuse(frames, camera.lens());
   ASSERT_FALSE(lost);
-  EXPECT_EQ(lost.error().reason, "CAMERA_LOST");
+  EXPECT_EQ(lost.error().reason, ErrorReason::CAMERA_LOST);
   EXPECT_EQ(lost.error().message.rfind("depth frame 14 of 16 (at 0.4 s): ", 0), 0U)
       << lost.error().message;
 }
@@ -163,7 +163,7 @@ TEST(Sweep, RefusesFramesOfAFaultyCamera) {
   const DepthFrame flat = testing::wall_frame(800);
   const auto reason = [&](const std::vector<DepthFrame>& frames) {
     const auto sweep = fuse(frames, lens);
-    return sweep ? "" : sweep.error().reason;
+    return std::string(sweep ? "" : name_of(sweep.error().reason));
   };
   EXPECT_EQ(reason({dark, flat}), "CAMERA_BLACK");
   EXPECT_EQ(reason({flat, flat, flat}), "CAMERA_FROZEN");

@@ -283,7 +283,7 @@ TEST(FilmMesh, MeshesFarLargerThanTheCoarsestSizeImpliesAreRefused) {
   options.size.growth = 0;
   const auto mesh = mesh_film(outline_of("100x100"), testing::line_round({}), options);
   ASSERT_FALSE(mesh) << mesh->vertices_mm.size();
-  EXPECT_EQ(mesh.error().reason, kMeshUnbounded);
+  EXPECT_EQ(mesh.error().reason, ErrorReason::MESH_UNBOUNDED);
 }
 
 }  // namespace

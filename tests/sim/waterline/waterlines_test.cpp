@@ -193,7 +193,7 @@ TEST(Waterlines, AFirstContactThatMissesTheFilmIsRefused) {
     const auto lines = take_waterlines(body, film, body.height_mm, {}, {}, {});
     ASSERT_FALSE(lines);
     EXPECT_EQ(lines.error().code, Code::kFailedPrecondition);
-    EXPECT_EQ(lines.error().reason, "CONTACT_MISSES_FILM");
+    EXPECT_EQ(lines.error().reason, ErrorReason::CONTACT_MISSES_FILM);
     EXPECT_EQ(lines.error().message.find('\n'), std::string::npos);
   }
 }

@@ -246,7 +246,7 @@ TEST_F(Worker, EarlierRunsAreReplacedAndForeignFilesAreNot) {
   ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));
   std::ofstream(out() + "/notes.txt") << "mine";
-  expect_refusal(3, simulate(), {"out: contains notes.txt", "--out"});
+  expect_refusal(3, simulate(), {"out: contains notes.txt", "another folder"});
   EXPECT_EQ(content(out() + "/notes.txt"), "mine");
 }
 

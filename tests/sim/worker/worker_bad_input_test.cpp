@@ -73,7 +73,7 @@ TEST_F(Worker, AFullFileSystemIsReportedAndNothingStays) {
 TEST_F(Worker, AnOutFolderThatCannotBeCreatedIsRefusedFirst) {
   Arguments command = simulate();
   *std::next(std::find(command.begin(), command.end(), "--out")) = path("no/out");
-  expect_refusal(3, command, {"no: no such folder", "--out"});
+  expect_refusal(3, command, {"no: no such folder", "another folder"});
   *std::next(std::find(command.begin(), command.end(), "--out")) = path("sphere.obj");
   expect_refusal(3, command, {"sphere.obj: is a file"});
 }

@@ -154,7 +154,7 @@ TEST_F(Worker, UvsAreNotProjectedOntoAModelThatHasNone) {
       3,
       simulate({"--mesh", path("plain.obj"), "--texture", path("texture.png"), "--project", "uv"},
                false),
-      {"plain.obj", "no texture coordinates", "--project"});
+      {"plain.obj", "no texture coordinates", "projection"});
 }
 
 /// A square in the plane z = 0, whose halves have the materials a and b.
@@ -166,7 +166,7 @@ TEST_F(Worker, AModelWithoutColourIsRefusedWithWhatWasFound) {
   folder.write("bare.obj",
                "v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   expect_refusal(3, simulate({"--mesh", path("bare.obj")}, false),
-                 {"bare.obj", "no colour", "--texture", "--project", "--paint"});
+                 {"bare.obj", "no colour", "Name a picture", "projection", "paint"});
   folder.write("odd.mtl", "newmtl a\nKd spectral steel.rfl\nnewmtl b\nKe 1 0 0\n");
   folder.write("odd.obj", square_obj("mtllib odd.mtl\n"));
   expect_refusal(

@@ -40,7 +40,7 @@ TEST_F(PlanWorker, FilmThatTheSecondDipMissesNamesTheDip) {
   folder.write("two.json",
                std::string("[") + kGood +
                    R"(, {"rotation_wxyz": [0, 1, 0, 0], "translation_mm": [80, 0, 0]}])");
-  expect_refusal(3, plan({}), {"dip 2: ", "film"});
+  expect_refusal(3, plan({}), {"--immersions: [1].pose: ", "film"});
 }
 
 TEST_F(PlanWorker, ModelWithoutColoursIsRefused) {
@@ -51,7 +51,7 @@ TEST_F(PlanWorker, ModelWithoutColoursIsRefused) {
   const auto texture = std::find(command.begin(), command.end(), "--texture");
   command.erase(texture, texture + 2);
   expect_refusal(3, command,
-                 {"bare.obj: has no colour that was understood", "Give a picture", "--paint"});
+                 {"bare.obj: has no colour that was understood", "Name a picture", "paint"});
 }
 
 TEST_F(PlanWorker, MissingAndUnknownFlagsAreBadUsage) {

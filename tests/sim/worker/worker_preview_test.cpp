@@ -252,7 +252,7 @@ TEST_F(Preview, ANewerRequestCancelsThePreviousOne) {
     const Answer answer = session.next();
     ASSERT_EQ(answer.head.at("id"), id) << "every request must be answered, in order";
     if (answer.head.contains("error")) {
-      EXPECT_EQ(answer.head.at("error").at("reason"), "SUPERSEDED");
+      EXPECT_EQ(answer.head.at("error").at("reason"), "PREVIEW_SUPERSEDED");
     } else {
       ++done;
     }

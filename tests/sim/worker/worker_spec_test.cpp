@@ -126,7 +126,7 @@ TEST_F(BadSpec, ErrorsAsJsonNameTheField) {
   EXPECT_EQ(ended.status, 3);
   const auto error = nlohmann::json::parse(ended.out)["error"];
   EXPECT_EQ(error["code"], "OUT_OF_RANGE");
-  EXPECT_EQ(error["metadata"]["field"], "dpi");
+  EXPECT_EQ(error["field"], "dpi");
 }
 
 TEST_F(BadSpec, ATooLargeFilmImageIsNamedByItsField) {

@@ -1,6 +1,7 @@
 /** Sends requests to the daemon. Every request goes through this file, and errors are returned as values. */
 import { signal } from '@preact/signals';
-import { done, refused, type Failure, type Result } from '../model/result';
+import { withLabel } from '../model/fields';
+import { done, refused, type Failure, type Result, type Violation } from '../model/result';
 
 /** The session's CSRF token, sent with every request that changes something; set at sign-in. */
 export const csrf = signal('');
@@ -123,7 +124,7 @@ interface Status {
   error?: {
     message?: string;
     status?: string;
-    details?: { '@type'?: string; reason?: string; metadata?: Record<string, string> }[];
+    details?: { '@type'?: string; reason?: string; fieldViolations?: Violation[] }[];
   };
 }
 
@@ -131,13 +132,16 @@ async function failureOf(response: Response): Promise<Failure> {
   const status = response.status;
   const body = (await response.json().catch(() => undefined)) as Status | undefined;
   if (!body?.error) return failureOfProxy(status);
-  const info = body.error?.details?.find((detail) => detail.reason);
+  const { message, details = [] } = body.error;
+  const violations = details.flatMap(({ fieldViolations = [] }) => fieldViolations);
+  // The daemon's message has the paths of the fields instead of their labels.
+  const labelled = violations.map(({ field, description }) => withLabel(field, description));
   return {
-    what: body.error.message || `the daemon refused the request (HTTP ${status})`,
+    what: labelled.join('; ') || message || `the daemon refused the request (HTTP ${status})`,
     status,
-    reason: info?.reason ?? body.error.status ?? '',
+    reason: details.find(({ reason }) => reason)?.reason ?? body.error.status ?? '',
     ...remedyOf(status),
-    ...(info?.metadata ? { metadata: info.metadata } : {}),
+    violations,
   };
 }
 

@@ -6,8 +6,16 @@ export interface Failure {
   reason?: string;
   /** HTTP status; 0 if the daemon did not answer. */
   status?: number;
-  /** Further details from the API (google.rpc.ErrorInfo.metadata). */
-  metadata?: Record<string, string>;
+  /** The fields at fault. */
+  violations?: readonly Violation[];
+}
+
+/** A field at fault (google.rpc.BadRequest.FieldViolation). */
+export interface Violation {
+  /** Its path: "simulate.dpi". */
+  field: string;
+  /** The problem, without the field. */
+  description: string;
 }
 
 /** A value or a failure. */

@@ -1,10 +1,11 @@
 /** Controls shared by all screens. */
 import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useLayoutEffect, useRef, useState } from 'preact/hooks';
+import type { Field } from '../model/fields';
 import { cutToBytes } from '../model/limits';
 import { done, type Result } from '../model/result';
 import { parseNumber, readNumber } from '../model/units';
-import { useReportError } from './field_errors';
+import { useRefusal, useReportError } from './field_errors';
 
 /** A button that is marked busy and ignores further presses while its action runs. */
 export function Button(props: {
@@ -76,6 +77,10 @@ export function ConfirmButton(props: {
  */
 export function NumberField(props: {
   label: string;
+  /** The field of the job, which the daemon may refuse. */
+  field?: Field;
+  /** The id of an error that is shown elsewhere. */
+  errorId?: string | undefined;
   unit: string;
   value: number | undefined;
   onValue: (value: number) => void;
@@ -100,9 +105,10 @@ export function NumberField(props: {
 
   const read = (content: string): Result<number | undefined> =>
     props.onEmpty && content.trim() === '' ? done(undefined) : readNumber(content, props);
-  const refusal = typed === undefined ? undefined : failureOf(read(typed));
-  const error = refusal && `${refusal.what}. ${refusal.remedy}.`;
-  useReportError(props.label, error !== undefined);
+  const failure = typed === undefined ? undefined : failureOf(read(typed));
+  useReportError(props.label, failure !== undefined);
+  const refusal = useRefusal(props.field, props.value);
+  const error = failure ? `${failure.what}. ${failure.remedy}.` : refusal;
 
   const tell = (value: number | undefined) => {
     if (value === lastValue.current) return;
@@ -143,8 +149,7 @@ export function NumberField(props: {
           value={text}
           placeholder={props.placeholder}
           disabled={props.disabled}
-          aria-invalid={error !== undefined}
-          aria-describedby={error ? `${id}-error` : undefined}
+          {...invalidity(error ? errorIdOf(id) : props.errorId)}
           onFocus={() => {
             isFocused.current = true;
             valueBefore.current = lastValue.current;
@@ -158,13 +163,29 @@ export function NumberField(props: {
         />
         <span class="unit">{props.unit}</span>
       </span>
-      {error && (
-        <span class="error" id={`${id}-error`} role="alert">
-          {error}
-        </span>
-      )}
+      <FieldError id={id} error={error} />
     </div>
   );
+}
+
+const errorIdOf = (id: string) => `${id}-error`;
+
+/** Attributes of an input with an error. */
+const invalidity = (errorId: string | undefined) => ({
+  'aria-invalid': errorId !== undefined,
+  'aria-describedby': errorId,
+});
+
+/** The error of the input with this id, if there is one. An enclosing <details> opens to show it. */
+function FieldError({ id, error }: { id: string; error: string | undefined }) {
+  const text = useRef<HTMLSpanElement>(null);
+  const hasError = error !== undefined;
+  useLayoutEffect(() => text.current?.closest('details')?.setAttribute('open', ''), [hasError]);
+  return hasError ? (
+    <span class="error" id={errorIdOf(id)} role="alert" ref={text}>
+      {error}
+    </span>
+  ) : null;
 }
 
 const failureOf = (result: Result<unknown>) => (result.ok ? undefined : result.failure);
@@ -207,12 +228,14 @@ export function TextField(props: {
 
 export function Choice<T extends string>(props: {
   label: string;
+  field?: Field;
   value: T;
   choices: readonly { value: T; label: string }[];
   onValue: (value: T) => void;
   disabled?: boolean;
 }) {
   const id = useId();
+  const error = useRefusal(props.field, props.value);
   return (
     <div class="field">
       <label for={id}>{props.label}</label>
@@ -220,6 +243,7 @@ export function Choice<T extends string>(props: {
         id={id}
         value={props.value}
         disabled={props.disabled}
+        {...invalidity(error && errorIdOf(id))}
         onChange={(event) => props.onValue(event.currentTarget.value as T)}
       >
         {props.choices.map(({ value, label }) => (
@@ -228,6 +252,7 @@ export function Choice<T extends string>(props: {
           </option>
         ))}
       </select>
+      <FieldError id={id} error={error} />
     </div>
   );
 }

@@ -1,7 +1,9 @@
-/** The invalid fields of a form. The form's action is blocked until there are none. */
-import { useSignal, type Signal } from '@preact/signals';
+/** The invalid fields of a form, which block the form's action, and fields that the daemon refused, which do not. */
+import { signal, useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
-import { useContext, useId, useLayoutEffect } from 'preact/hooks';
+import { useContext, useId, useLayoutEffect, useRef } from 'preact/hooks';
+import { fieldAt, type Field } from '../model/fields';
+import type { Violation } from '../model/result';
 
 /** Labels of the invalid fields, by field id. */
 export type FieldErrors = Signal<ReadonlyMap<string, string>>;
@@ -34,4 +36,37 @@ export function useReportError(label: string, hasError: boolean): void {
 export function remedyOf(errors: FieldErrors | undefined): string | undefined {
   const [label] = errors?.value.values() ?? [];
   return label === undefined ? undefined : `Correct “${label}” first`;
+}
+
+/** What the daemon refused. */
+type Subject = 'job' | 'preview';
+
+interface Refusal extends Field {
+  problem: string;
+  of: Subject;
+}
+
+const refusals = signal<readonly Refusal[]>([]);
+
+/** Marks the fields at fault, instead of those that were marked before for the same subject. */
+export function markRefused(of: Subject, violations: readonly Violation[] = []): void {
+  const marked = violations.flatMap(({ field, description }) => {
+    const known = fieldAt(field);
+    return known ? [{ ...known, problem: description, of }] : [];
+  });
+  refusals.value = [...refusals.value.filter((one) => one.of !== of), ...marked];
+}
+
+/** The problem that the daemon found in a field, as a sentence; undefined once the value changes. */
+export function useRefusal(field: Field | undefined, value: unknown): string | undefined {
+  const refusal = refusals.value.find(
+    ({ name, dip }) => name === field?.name && (dip === undefined || dip === (field.dip ?? 0)),
+  );
+  const valueBefore = useRef(value);
+  useLayoutEffect(() => {
+    if (refusal && valueBefore.current !== value)
+      refusals.value = refusals.value.filter((one) => one !== refusal);
+    valueBefore.current = value;
+  }, [value]);
+  return refusal && `${refusal.problem}.`;
 }

@@ -55,9 +55,9 @@ TEST_F(AssetStoreTest, VerifiedBytesBecomeAnAssetAndAreNotUploadedAgain) {
 TEST_F(AssetStoreTest, HashAloneRequiresAnUpload) {
   const Asset asset = put("mesh");
   EXPECT_FALSE(may("bob", asset));
-  EXPECT_EQ(assets->asset_for(asset.sha256, bob).error().reason, "ASSET_NOT_FOUND");
+  EXPECT_EQ(assets->asset_for(asset.sha256, bob).error().reason, ErrorReason::ASSET_NOT_FOUND);
   EXPECT_EQ(check_may_use(*database, {{"m.obj", asset.sha256}}, bob).error().reason,
-            "ASSET_MISSING");
+            ErrorReason::ASSET_MISSING);
   EXPECT_EQ(check_may_use(*database, {{"m.obj", asset.sha256}}, bob).error().message,
             check_may_use(*database, {{"m.obj", asset.sha256}}, {"eve"}).error().message);
   const Upload upload = begin("mesh", {}, "bob");
@@ -74,8 +74,8 @@ TEST_F(AssetStoreTest, HashAloneRequiresAnUpload) {
 
 TEST_F(AssetStoreTest, UploadBelongsToItsOwner) {
   const Upload upload = begin("mesh");
-  EXPECT_EQ(uploads->get(upload.id, "bob").error().reason, "UPLOAD_NOT_FOUND");
-  EXPECT_EQ(send(upload.id, 0, "mesh", "bob").error().reason, "UPLOAD_NOT_FOUND");
+  EXPECT_EQ(uploads->get(upload.id, "bob").error().reason, ErrorReason::UPLOAD_NOT_FOUND);
+  EXPECT_EQ(send(upload.id, 0, "mesh", "bob").error().reason, ErrorReason::UPLOAD_NOT_FOUND);
   EXPECT_TRUE(send(upload.id, 0, "mesh"));
 }
 
@@ -86,7 +86,7 @@ TEST_F(AssetStoreTest, InputsOfASharedJobAreUsableWhileItIsShared) {
   ASSERT_TRUE(jobs->share(job.id, true));
   EXPECT_TRUE(may("bob", asset));
   EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason,
-            "ASSET_NOT_FOUND");  // the asset has no owner bob
+            ErrorReason::ASSET_NOT_FOUND);  // the asset has no owner bob
   ASSERT_TRUE(jobs->share(job.id, false));
   EXPECT_FALSE(may("bob", asset));
 }
@@ -100,7 +100,7 @@ TEST_F(AssetStoreTest, AssetEndsWithItsLastOwnerUnlessAJobUsesIt) {
   EXPECT_FALSE(may("bob", asset));
   EXPECT_TRUE(may("ann", asset));
   const Job job = made_of(asset, "ann"), others = made_of(asset, "bob");
-  EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, ErrorReason::STATE_FORBIDS);
   EXPECT_EQ(stored("ann"), 4);  // the asset still counts for ann
   ASSERT_TRUE(jobs->cancel(job.id));
   ASSERT_TRUE(jobs->remove(job.id));
@@ -135,7 +135,7 @@ TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
   const auto refused = ask("123456", ann);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
-  EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
+  EXPECT_EQ(refused.error().reason, ErrorReason::QUOTA_EXCEEDED);
   EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   EXPECT_EQ(refused.error().metadata.at("used"), "5");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "10");
@@ -148,7 +148,7 @@ TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
   complete(job.id);
   const auto late = send(upload.id, 0, "abcde");
   ASSERT_FALSE(late);
-  EXPECT_EQ(late.error().reason, "QUOTA_EXCEEDED");
+  EXPECT_EQ(late.error().reason, ErrorReason::QUOTA_EXCEEDED);
   EXPECT_FALSE(uploads->get(upload.id, "ann"));
   EXPECT_FALSE(std::filesystem::exists(layout.upload(upload.id)));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(sha256("abcde"))));
@@ -205,9 +205,9 @@ TEST_F(AssetStoreTest, WrongHashDeletesTheUpload) {
   const Upload upload = begin("mesh");
   const auto result = send(upload.id, 0, "mess");
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().reason, "ASSET_HASH_MISMATCH");
-  EXPECT_EQ(uploads->get(upload.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
-  EXPECT_EQ(select_asset(*database, sha256("mesh")).error().reason, "ASSET_NOT_FOUND");
+  EXPECT_EQ(result.error().reason, ErrorReason::ASSET_HASH_MISMATCH);
+  EXPECT_EQ(uploads->get(upload.id, "ann").error().reason, ErrorReason::UPLOAD_NOT_FOUND);
+  EXPECT_EQ(select_asset(*database, sha256("mesh")).error().reason, ErrorReason::ASSET_NOT_FOUND);
   EXPECT_FALSE(std::filesystem::exists(layout.upload(upload.id)));
 }
 
@@ -218,14 +218,14 @@ TEST_F(AssetStoreTest, BrokenUploadResumesEvenAfterARestart) {
   EXPECT_EQ(uploads->get(upload.id, "ann")->received_bytes, 5);
   const auto gap = send(upload.id, 6, "esh");
   ASSERT_FALSE(gap);
-  EXPECT_EQ(gap.error().reason, "OFFSET_MISMATCH");
+  EXPECT_EQ(gap.error().reason, ErrorReason::OFFSET_MISMATCH);
   EXPECT_EQ(gap.error().metadata.at("expected_offset"), "5");
   EXPECT_TRUE(std::holds_alternative<Asset>(send(upload.id, 5, "mesh").value()));
 }
 
 TEST_F(AssetStoreTest, MoreThanAnnouncedOrAllowedIsRefused) {
   const Upload upload = begin("mesh");
-  EXPECT_EQ(send(upload.id, 0, "mesh+").error().reason, "ASSET_TOO_LARGE");
+  EXPECT_EQ(send(upload.id, 0, "mesh+").error().reason, ErrorReason::ASSET_TOO_LARGE);
   const auto large = uploads->start({"", std::string(64, 'a'), 101, 0, "", 0}, ann, {});
   ASSERT_FALSE(large);
   EXPECT_EQ(large.error().code, Code::kResourceExhausted);
@@ -236,7 +236,8 @@ TEST_F(AssetStoreTest, OneCallAtATimeWritesAnUpload) {
   const Upload upload = begin("mesh");
   auto first = UploadWriter::open(*uploads, upload.id, "ann");
   ASSERT_TRUE(first);
-  EXPECT_EQ(UploadWriter::open(*uploads, upload.id, "ann").error().reason, "UPLOAD_BUSY");
+  EXPECT_EQ(UploadWriter::open(*uploads, upload.id, "ann").error().reason,
+            ErrorReason::UPLOAD_BUSY);
   first->reset();
   EXPECT_TRUE(UploadWriter::open(*uploads, upload.id, "ann"));
 }
@@ -246,9 +247,9 @@ TEST_F(AssetStoreTest, UploadsAreLimitedInNumberAndTime) {
   begin("2");
   const Upload third = begin("3");
   const Upload wanted{"", sha256("4"), 1, 0, "", 0};
-  EXPECT_EQ(uploads->start(wanted, ann, {}).error().reason, "UPLOADS_FULL");
+  EXPECT_EQ(uploads->start(wanted, ann, {}).error().reason, ErrorReason::UPLOADS_FULL);
   now_ms += 1000;
-  EXPECT_EQ(uploads->get(third.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
+  EXPECT_EQ(uploads->get(third.id, "ann").error().reason, ErrorReason::UPLOAD_NOT_FOUND);
   ASSERT_TRUE(asset_retention->purge());
   EXPECT_TRUE(uploads->start(wanted, ann, {}));
 }
@@ -264,7 +265,7 @@ TEST_F(AssetStoreTest, FullDiskIsReportedBeforeAnyUpload) {
   open();
   const auto refused = uploads->start({"", std::string(64, 'a'), 1, 0, "", 0}, ann, {});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "DISK_FULL");
+  EXPECT_EQ(refused.error().reason, ErrorReason::DISK_FULL);
 }
 
 TEST_F(AssetStoreTest, AssetOfAnUnfinishedJobStays) {
@@ -273,11 +274,11 @@ TEST_F(AssetStoreTest, AssetOfAnUnfinishedJobStays) {
   definition.work.verb = "simulate";
   definition.work.inputs = {{"m.obj", asset.sha256}};
   const Job job = jobs->create(definition, {}).value();
-  EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, ErrorReason::STATE_FORBIDS);
   ASSERT_TRUE(jobs->cancel(job.id));
   EXPECT_TRUE(assets->remove(asset.sha256, oper));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(asset.sha256)));
-  EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, "ASSET_NOT_FOUND");
+  EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, ErrorReason::ASSET_NOT_FOUND);
 }
 
 TEST_F(AssetStoreTest, RestartSetsUnknownFilesAsideAndAdoptsVerifiedOnes) {

@@ -193,7 +193,7 @@ TEST_F(WorkerAdoption, ResultOfAWorkerThatEndedWithoutADaemonIsCollected) {
   start_daemon();
   EXPECT_TRUE(ends(good, JobState::kSucceeded));
   EXPECT_TRUE(ends(bad, JobState::kFailed));
-  EXPECT_EQ(job(bad).failure->error.reason, "WORKER_KILLED");
+  EXPECT_EQ(job(bad).failure->error.reason, ErrorReason::WORKER_KILLED);
   EXPECT_EQ(job(bad).failure->signal, SIGKILL);
   EXPECT_EQ(starts(), (Starts{"1 1", "2 1"}));
 }
@@ -302,7 +302,8 @@ TEST_F(WorkerAdoption, RandomKillsStartEachWorkerExactlyOnce) {
     if (!succeeds) {
       ++given_up;
       ASSERT_TRUE(job(i).failure) << i;
-      EXPECT_EQ(job(i).failure->error.reason, "DAEMON_LOST") << job(i).failure->error.message;
+      EXPECT_EQ(job(i).failure->error.reason, ErrorReason::DAEMON_LOST)
+          << job(i).failure->error.message;
     }
     EXPECT_EQ(started.count(std::to_string(i)), succeeds ? 1U : 0U) << i;
   }
@@ -334,7 +335,7 @@ TEST_F(SilentWorkerExecutor, FailsTheJobAtTheLimitAndNeverStartsItAgain) {
   std::ofstream(mute()).put('\n');
   make_pool();
   EXPECT_TRUE(ends(id, JobState::kFailed));
-  EXPECT_EQ(job(id).failure->error.reason, "WORKER_UNUSABLE");
+  EXPECT_EQ(job(id).failure->error.reason, ErrorReason::WORKER_UNUSABLE);
   EXPECT_NE(job(id).failure->error.message.find("did not answer"), std::string::npos);
   EXPECT_GE(lines_of("offers").size(), 2U);
   EXPECT_EQ(starts(), Starts{"1 1"});

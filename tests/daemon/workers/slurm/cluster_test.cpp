@@ -221,9 +221,9 @@ TEST_F(ClusterTest, FailuresHaveTheWordsOfTheWorker) {
   ASSERT_EQ(end_of(refused), v1::Job::FAILED);
   EXPECT_EQ(client->job(refused).error().message(), "m.obj:7: not a number");
   ASSERT_EQ(end_of(eats), v1::Job::FAILED);
-  EXPECT_EQ(client->job(eats).error().reason(), "MEMORY_LIMIT");
+  EXPECT_EQ(client->job(eats).error().reason(), v1::MEMORY_LIMIT);
   ASSERT_EQ(end_of(crashes), v1::Job::FAILED);
-  EXPECT_EQ(client->job(crashes).error().reason(), "WORKER_KILLED");
+  EXPECT_EQ(client->job(crashes).error().reason(), v1::WORKER_KILLED);
 }
 
 // Slurm's shortest limit is a minute.
@@ -233,7 +233,8 @@ TEST_F(ClusterTest, LimitOfSlurmIsTheTimeLimitOfTheJob) {
   start(with);
   const std::string job = client->simulate("sleep 110").name();
   ASSERT_EQ(end_of(job), v1::Job::FAILED);
-  EXPECT_EQ(client->job(job).error().reason(), "TIME_LIMIT") << client->job(job).error().message();
+  EXPECT_EQ(client->job(job).error().reason(), v1::TIME_LIMIT)
+      << client->job(job).error().message();
   EXPECT_EQ(starts(job), 1);
 }
 
@@ -247,8 +248,8 @@ TEST_F(ClusterTest, WorkerOfANodeThatDiffersIsRefusedWithBothIds) {
   start(with);
   const std::string job = client->simulate("").name();
   ASSERT_EQ(end_of(job), v1::Job::FAILED);
-  const v1::JobError error = client->job(job).error();
-  EXPECT_EQ(error.reason(), "WORKER_DIFFERS");
+  const v1::Failure error = client->job(job).error();
+  EXPECT_EQ(error.reason(), v1::WORKER_DIFFERS);
   EXPECT_NE(error.message().find("build bb"), std::string::npos) << error.message();
   EXPECT_NE(error.message().find("build aa"), std::string::npos) << error.message();
 }

@@ -86,7 +86,7 @@ TEST_F(SlurmScript, OtherBuildOfTheWorkerIsRefusedBeforeAnyWork) {
   EXPECT_FALSE(std::filesystem::exists(run.root / "ran"));
   const auto failure = judge(status, StopReason::kNothing, errors_of(run), answer_of(run));
   ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->error.reason, "WORKER_DIFFERS");
+  EXPECT_EQ(failure->error.reason, ErrorReason::WORKER_DIFFERS);
   for (const char* id : {"ab12", "cd34"}) {
     EXPECT_NE(failure->error.message.find(id), std::string::npos) << failure->error.message;
   }
@@ -98,7 +98,7 @@ TEST_F(SlurmScript, WorkerThatIsNotInstalledIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(run.root / "ran"));
   const auto failure = judge(status, StopReason::kNothing, errors_of(run), answer_of(run));
   ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->error.reason, "WORKER_DIFFERS");
+  EXPECT_EQ(failure->error.reason, ErrorReason::WORKER_DIFFERS);
 }
 
 // Slurm sends SIGTERM to the script and to the worker.
@@ -140,7 +140,7 @@ TEST_F(SlurmScript, FullFolderIsReportedAsSuch) {
       judge(wait_status(run).value_or(0), StopReason::kNothing, errors_of(run), answer_of(run));
   ::umount2(run.root.c_str(), MNT_DETACH);
   ASSERT_TRUE(failure);
-  EXPECT_EQ(failure->error.reason, "DISK_FULL") << failure->error.message;
+  EXPECT_EQ(failure->error.reason, ErrorReason::DISK_FULL) << failure->error.message;
 }
 
 TEST_F(SlurmScript, OptionsComeBeforeTheFirstCommand) {

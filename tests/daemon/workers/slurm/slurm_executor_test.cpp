@@ -135,7 +135,7 @@ TEST_F(SlurmExecutorTest, RefusalIsAnErrorWithSlurmsWords) {
   engine.does("sbatch", "echo sbatch: error: invalid partition specified: nope >&2; exit 1");
   const auto refused = executor->start(execution(), launch);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().reason, "WORKER_UNUSABLE");
+  EXPECT_EQ(refused.error().reason, ErrorReason::WORKER_UNUSABLE);
   EXPECT_NE(refused.error().message.find("invalid partition specified: nope"), std::string::npos);
 }
 
@@ -496,7 +496,7 @@ TEST_F(SlurmExecutorTest, IsNotReadyWhileTheSharedFolderIsFull) {
   const Status full = executor->ready();
   ::umount2(lab.c_str(), MNT_DETACH);
   ASSERT_FALSE(full);
-  EXPECT_EQ(full.error().reason, "DISK_FULL") << full.error().message;
+  EXPECT_EQ(full.error().reason, ErrorReason::DISK_FULL) << full.error().message;
   EXPECT_TRUE(executor->ready());
 }
 

@@ -54,4 +54,4 @@ class OnBothWires : public ::testing::TestWithParam<const char*> {};
 /// Fails with the message of a Result or Status.
 #define HP_ASSERT_OK(expression)                      \
   if (const auto& checked_ = (expression); !checked_) \
-  GTEST_FAIL() << checked_.error().reason << ": " << checked_.error().message
+  GTEST_FAIL() << name_of(checked_.error().reason) << ": " << checked_.error().message

@@ -99,9 +99,9 @@ TEST_P(CleanLine, WordsWithoutTheirMarkAreNotDecodedAsState) {
   HP_ASSERT_OK(drive.connect());
   const auto state = drive.poll();
   ASSERT_FALSE(state);
-  EXPECT_EQ(state.error().reason, "REPLY_INVALID");
+  EXPECT_EQ(state.error().reason, ErrorReason::REPLY_INVALID);
   EXPECT_NE(state.error().message.find("0x0100"), std::string::npos) << state.error().message;
-  EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
+  EXPECT_EQ(drive.enable().error().reason, ErrorReason::RIG_OFFLINE);
 }
 
 TEST_P(CleanLine, EveryCallEndsWithinItsTimeLimit) {

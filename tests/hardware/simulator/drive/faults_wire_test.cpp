@@ -10,16 +10,20 @@ namespace {
 
 struct Outcome {
   const char* fault;
-  const char* reason;  ///< reason of an affected read's error
+  ErrorReason reason;  ///< reason of an affected read's error
   bool timeout;        ///< whether a read's error has the metadata `timeout`
   bool is_bad = true;  ///< not a reply of the drive, so reads are repeated
 };
 
 constexpr Outcome kOutcomes[] = {
-    {"late 180ms", "RIG_OFFLINE", true},        {"drop", "RIG_OFFLINE", true},
-    {"truncate", "RIG_OFFLINE", true},          {"wrong-id", "REPLY_INVALID", false},
-    {"wrong-function", "REPLY_INVALID", false}, {"wrong-crc", "REPLY_INVALID", false},
-    {"wrong-length", "REPLY_INVALID", false},   {"busy", "DRIVE_BUSY", false, false},
+    {"late 180ms", ErrorReason::RIG_OFFLINE, true},
+    {"drop", ErrorReason::RIG_OFFLINE, true},
+    {"truncate", ErrorReason::RIG_OFFLINE, true},
+    {"wrong-id", ErrorReason::REPLY_INVALID, false},
+    {"wrong-function", ErrorReason::REPLY_INVALID, false},
+    {"wrong-crc", ErrorReason::REPLY_INVALID, false},
+    {"wrong-length", ErrorReason::REPLY_INVALID, false},
+    {"busy", ErrorReason::DRIVE_BUSY, false, false},
 };
 
 class LineFault : public ::testing::TestWithParam<std::tuple<const char*, Outcome>> {};
@@ -48,7 +52,7 @@ TEST_P(LineFault, HasItsStatedErrorAndTheLinkRecovers) {
   if (outcome.is_bad) {
     const Status blind = bench.drive().move_to(5, 5);
     ASSERT_FALSE(blind) << "a move must be refused while the state is unknown";
-    EXPECT_EQ(blind.error().reason, "RIG_OFFLINE");
+    EXPECT_EQ(blind.error().reason, ErrorReason::RIG_OFFLINE);
   }
   HP_ASSERT_OK(bench.drive().poll());
 }
@@ -90,7 +94,7 @@ TEST_P(MachineFault, SilentDriveIsOfflineAndStopsByItself) {
       EXPECT_FALSE(bench.drive().connect());
       continue;
     }
-    EXPECT_EQ(bench.drive().poll().error().reason, "RIG_OFFLINE");
+    EXPECT_EQ(bench.drive().poll().error().reason, ErrorReason::RIG_OFFLINE);
   }
   std::this_thread::sleep_for(milliseconds(300));
   EXPECT_EQ(bench.mode(), "off");
@@ -106,14 +110,14 @@ TEST_P(MachineFault, UnpluggingIsReportedAtOnceAndTheLinkRecovers) {
   const double took_s = seconds_of([&] {
     const auto state = bench.drive().poll();
     ASSERT_FALSE(state);
-    EXPECT_EQ(state.error().reason, "RIG_OFFLINE");
+    EXPECT_EQ(state.error().reason, ErrorReason::RIG_OFFLINE);
   });
   EXPECT_LT(took_s, 0.05);
   EXPECT_FALSE(bench.drive().connected());
   const double refused_s = seconds_of([&] {
     const auto found = bench.drive().connect();
     ASSERT_FALSE(found);
-    EXPECT_EQ(found.error().reason, "RIG_OFFLINE");
+    EXPECT_EQ(found.error().reason, ErrorReason::RIG_OFFLINE);
   });
   EXPECT_LT(refused_s, 0.05);
   bench.act("replug");
@@ -146,7 +150,7 @@ TEST_P(MachineFault, StopButtonIsReportedAndNothingMovesUntilItIsReleased) {
   EXPECT_FALSE(state.enabled);
   const Status enabled = bench.drive().enable();
   ASSERT_FALSE(enabled);
-  EXPECT_EQ(enabled.error().reason, "DRIVE_REFUSED");
+  EXPECT_EQ(enabled.error().reason, ErrorReason::DRIVE_REFUSED);
   bench.act("release stop");
   std::this_thread::sleep_for(milliseconds(50));
   EXPECT_FALSE(bench.drive().poll()->moving);

@@ -134,7 +134,7 @@ TEST_P(Motion, ImpossibleMotionsAreRefusedBeforeAnythingIsSent) {
   for (const double speed : {0.0, -1.0, 20.1, 1e-5, std::nan("")}) {
     const Status moved = bench.drive().move_to(1, speed);
     ASSERT_FALSE(moved);
-    EXPECT_EQ(moved.error().reason, "LIMIT_EXCEEDED");
+    EXPECT_EQ(moved.error().reason, ErrorReason::LIMIT_EXCEEDED);
   }
   EXPECT_FALSE(bench.drive().move_to(1e9, 5));
   EXPECT_FALSE(bench.drive().move_to(NAN, 5));

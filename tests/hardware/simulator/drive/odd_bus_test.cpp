@@ -83,7 +83,7 @@ TEST(OddBusSerial, AnEchoIsNeverTakenForTheConfirmationOfAWrite) {
   HP_ASSERT_OK(link.connect());
   const auto written = link.transact({1, drive::Function::kWriteOne, 0x0300, 0, {7}});
   ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().reason, "RIG_OFFLINE");
+  EXPECT_EQ(written.error().reason, ErrorReason::RIG_OFFLINE);
   EXPECT_TRUE(written.error().metadata.contains("timeout"));
 }
 

@@ -76,7 +76,7 @@ TEST_F(SceneFile, ObjectHangsInTheGripperAtItsTruePose) {
 TEST_F(SceneFile, WithoutACameraThereIsNoScenery) {
   const auto scenery = scenery_of(*scene(""));
   ASSERT_FALSE(scenery);
-  EXPECT_EQ(scenery.error().reason, "CAMERA_NOT_FOUND");
+  EXPECT_EQ(scenery.error().reason, ErrorReason::CAMERA_NOT_FOUND);
 }
 
 TEST_F(SceneFile, ErrorsNameFileLineAndRemedy) {

@@ -48,7 +48,7 @@ TEST(SerialLine, IsLockedByOneProgram) {
   const auto other = bench.other_link({});
   const Status taken = other->connect();
   ASSERT_FALSE(taken);
-  EXPECT_EQ(taken.error().reason, "RIG_OFFLINE");
+  EXPECT_EQ(taken.error().reason, ErrorReason::RIG_OFFLINE);
   EXPECT_NE(taken.error().message.find("in use by another program. Stop that program"),
             std::string::npos)
       << taken.error().message;
@@ -75,7 +75,7 @@ TEST(Tcp, AMissingConnectionIsReportedAtOnce) {
   EXPECT_LT(took_s, 0.05);
   const auto words = link.transact({1, drive::Function::kReadHolding, 0, 1, {}});
   ASSERT_FALSE(words);
-  EXPECT_EQ(words.error().reason, "RIG_OFFLINE");
+  EXPECT_EQ(words.error().reason, ErrorReason::RIG_OFFLINE);
 }
 
 // The client of libmodbus, which shares no code with ours.

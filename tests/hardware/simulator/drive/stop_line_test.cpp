@@ -58,7 +58,7 @@ TEST_P(Stop, ConnectsByItselfAndReportsFailure) {
   const double took_s = seconds_of([&] {
     const Status stopped = stop.stop(milliseconds(100));
     ASSERT_FALSE(stopped);
-    EXPECT_EQ(stopped.error().reason, "RIG_OFFLINE");
+    EXPECT_EQ(stopped.error().reason, ErrorReason::RIG_OFFLINE);
   });
   EXPECT_LT(took_s, 0.3);
   bench.act("replug");

@@ -22,7 +22,7 @@ Error held_against(BenchRig& bench) {
                               bench.drive().move_to(1, 5), bench.drive().jog(5)}) {
     EXPECT_FALSE(moved);
     if (!moved) {
-      EXPECT_EQ(moved.error().reason, "DRIVE_CONFIG_UNSAFE");
+      EXPECT_EQ(moved.error().reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
     }
   }
   EXPECT_TRUE(bench.drive().stop());
@@ -33,7 +33,7 @@ Error held_against(BenchRig& bench) {
 TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsUnsafe) {
   BenchRig bench(GetParam(), {.arguments = {"--watchdog-action", "0"}});
   const Error error = held_against(bench);
-  EXPECT_EQ(error.reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ(error.reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
   EXPECT_EQ(error.code, Code::kFailedPrecondition);
   EXPECT_NE(error.message.find("does not stop the axis"), std::string::npos) << error.message;
   EXPECT_NE(error.message.find("0x0201"), std::string::npos) << error.message;
@@ -82,7 +82,7 @@ TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndDisconnected) {
   drive::Drive drive(*ours, bench.drive().link());
   const auto found = drive.connect();
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ(found.error().reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
   EXPECT_NE(found.error().message.find("holds 0x4851; 0x4850 is expected"), std::string::npos)
       << found.error().message;
   EXPECT_FALSE(drive.connected());
@@ -97,7 +97,7 @@ TEST_P(UnsafeDrive, AMissingRegisterMeansAnotherDrive) {
   drive::Drive drive(profile, bench.drive().link());
   const auto found = drive.connect();
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ(found.error().reason, ErrorReason::DRIVE_CONFIG_UNSAFE);
   EXPECT_NE(found.error().message.find("does not exist"), std::string::npos);
 }
 
@@ -108,7 +108,7 @@ TEST_P(UnsafeDrive, AnotherUnitIdIsOffline) {
   drive::Drive drive(profile, bench.drive().link());
   const auto found = drive.connect();
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().reason, "RIG_OFFLINE");
+  EXPECT_EQ(found.error().reason, ErrorReason::RIG_OFFLINE);
 }
 
 }  // namespace

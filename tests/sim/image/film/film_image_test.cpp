@@ -265,7 +265,7 @@ TEST(WritePng, AFileBeyondTheLimitIsReportedAndLeavesNothingBehind) {
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Code::kResourceExhausted);
-  EXPECT_EQ(status.error().reason, "FILE_LIMIT");
+  EXPECT_EQ(status.error().reason, ErrorReason::OUTPUT_LIMIT);
   EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 

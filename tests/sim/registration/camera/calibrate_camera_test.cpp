@@ -156,7 +156,7 @@ TEST(CalibrateCamera, TooFewViewsAreRefused) {
   holds.resize(2);
   const auto found = calibrated(holds, false);
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().reason, "POOR_VIEWS");
+  EXPECT_EQ(found.error().reason, ErrorReason::POOR_VIEWS);
   EXPECT_NE(found.error().message.find("2 views"), std::string::npos);
 }
 

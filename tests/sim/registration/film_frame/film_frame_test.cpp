@@ -118,7 +118,7 @@ TEST(FilmFrame, ThreeMarkersThatDoNotAgreeAreRefused) {
   rig.markers[1].at_mm += Eigen::Vector3d(4, 3, 0);
   const auto frame = found(rig);
   ASSERT_FALSE(frame);
-  EXPECT_EQ(frame.error().reason, "TOO_FEW_MARKERS");
+  EXPECT_EQ(frame.error().reason, ErrorReason::TOO_FEW_MARKERS);
 }
 
 TEST(FilmFrame, FewerThanThreeMarkersAreRefusedByName) {
@@ -126,7 +126,7 @@ TEST(FilmFrame, FewerThanThreeMarkersAreRefusedByName) {
   rig.markers.erase(rig.markers.begin(), rig.markers.begin() + 2);
   const auto frame = found(rig);
   ASSERT_FALSE(frame);
-  EXPECT_EQ(frame.error().reason, "TOO_FEW_MARKERS");
+  EXPECT_EQ(frame.error().reason, ErrorReason::TOO_FEW_MARKERS);
   EXPECT_NE(frame.error().message.find("\"left\""), std::string::npos);
   EXPECT_NE(frame.error().message.find("\"right\""), std::string::npos);
   EXPECT_EQ(frame.error().message.find("\"near\""), std::string::npos);
@@ -138,7 +138,7 @@ TEST(FilmFrame, AFrameWithoutWaterIsRefused) {
   const Pose on_its_side = rig.X_CF() * Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitX());
   const auto frame = find_film_frame(cloud, nominal_layout(), on_its_side, testing::two_threads());
   ASSERT_FALSE(frame);
-  EXPECT_EQ(frame.error().reason, "NO_PLANE");
+  EXPECT_EQ(frame.error().reason, ErrorReason::NO_PLANE);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ struct Hanging {
   }
   [[nodiscard]] std::string reason() const {
     const auto pose = find();
-    return pose ? "" : pose.error().reason + ": " + pose.error().message;
+    return pose ? "" : std::string(name_of(pose.error().reason)) + ": " + pose.error().message;
   }
 };
 
@@ -187,7 +187,7 @@ std::string bracket_reason(double below_mm) {
   const auto f = hanging.fused(hanging.rig.frames(8, 1));
   const auto pose =
       find_object(hanging.cloud(f), f.mean, hanging.frame(), hanging.task, testing::two_threads());
-  return pose ? "" : pose.error().reason + ": " + pose.error().message;
+  return pose ? "" : std::string(name_of(pose.error().reason)) + ": " + pose.error().message;
 }
 
 TEST(Object, SmallObjectAtTheGripperIsToBeHungLower) {

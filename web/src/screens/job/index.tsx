@@ -2,6 +2,7 @@ import { useEffect, useMemo } from 'preact/hooks';
 import { jobs as api, newRequestId } from '../../api/services';
 import type { Job, JobInput } from '../../api/types';
 import { beginnings } from '../../events';
+import { withLabel } from '../../model/fields';
 import { formatSeconds } from '../../model/units';
 import { againPath, go } from '../../route';
 import { canRetry, forget, isFinished, known, queue, refresh, remember } from '../../state/jobs';
@@ -191,7 +192,7 @@ function Left({ job }: { job: Job }) {
     <>
       {job.error && (
         <p class="warning" role="alert">
-          {job.error.message}
+          {withLabel(job.error.field, job.error.message)}
           <span class="quiet"> {job.error.reason}</span>
         </p>
       )}

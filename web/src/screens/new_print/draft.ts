@@ -18,6 +18,7 @@ import { centreOf, longestOf, sidesOf } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Vec3 } from '../../model/pose';
 import { done, refused, type Failure, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
+import { markRefused } from '../../ui/field_errors';
 import { numberOf } from '../../ui/job_text';
 import { enlarged, layerIn, type LayerChoices } from './picture/choices';
 import { layerOfOldDraft, pictureOf, pictureSpec } from './picture/spec';
@@ -85,6 +86,10 @@ export const shape = signal<Shape | undefined>(undefined);
 export const change = (part: Partial<Draft>): void => {
   draft.value = { ...draft.value, requestId: newRequestId(), ...part };
 };
+
+/** The dip that is being changed, counted from 0; undefined if it is the only one. */
+export const selectedDip = (): number | undefined =>
+  dipsOf(draft.value).length > 1 ? draft.value.before.length : undefined;
 
 /** Changes the scale. The picture keeps its place on the object. */
 export const rescale = (scale: number): void =>
@@ -157,14 +162,18 @@ export function clear(): void {
   batch(() => {
     shape.value = undefined;
     draft.value = { ...kEmpty };
+    markRefused('job');
   });
 }
 
-/** Fills the draft from a job's spec. The caller must load the shape of the model. */
+/**
+ * Fills the draft from a job's spec, and marks the field for which the job failed. The caller must load the shape of the
+ * model.
+ */
 export async function startFrom(name: string): Promise<Result<Job>> {
   const answer = await jobsApi.get(name);
   if (!answer.ok) return answer;
-  const { labels } = answer.value;
+  const { labels, error } = answer.value;
   const from = sourceOf(answer.value);
   if (!from)
     return refused(
@@ -188,6 +197,7 @@ export async function startFrom(name: string): Promise<Result<Job>> {
       speed_mm_per_s: spec.dipSpeedMmPerS ?? 5,
       requestId: newRequestId(),
     };
+    markRefused('job', error && [{ field: error.field, description: error.message }]);
   });
   return done(answer.value);
 }

@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import * as rules from '../../api/rules';
+import { inputOf } from '../../model/fields';
 import { limitsOf } from '../../model/limits';
 import { formatSize, kLengthUnits, likelyUnit, oddSize, unitOf } from '../../model/units';
 import { Button, NumberField, Switch } from '../../ui/controls';
@@ -185,7 +186,7 @@ function Size() {
           onValue={(value) => rescale((scale * value) / longest_mm.value)}
         />
         <NumberField
-          label="One unit is"
+          {...inputOf('scale')}
           {...limitsOf(rules.SimulateSpec.scale)}
           digits={6}
           value={scale}

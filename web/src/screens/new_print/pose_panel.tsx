@@ -1,23 +1,24 @@
-import { dipsOf } from '../../model/dips';
+import { inputOf } from '../../model/fields';
 import { fromAngles, kUpright, product, toAngles, turn, type Vec3 } from '../../model/pose';
 import { formatMm } from '../../model/units';
 import { Choice, NumberField } from '../../ui/controls';
+import { useRefusal } from '../../ui/field_errors';
 import { WarningLines } from '../../ui/warning';
 import { calibrated, calibrations, staleness } from './calibration';
 import { AddDip, DipList } from './dips_panel';
-import { change, draft, shape } from './draft';
+import { change, draft, selectedDip, shape } from './draft';
 
 const kAxes = ['x', 'y', 'z'] as const;
 
 /** The pose of the object: entered as numbers, in steps of 90°, or taken from a calibration. */
 export function PosePanel() {
   if (!shape.value) return null;
-  const isPlan = dipsOf(draft.value).length > 1;
+  const dip = selectedDip();
   return (
     <section aria-labelledby="pose-title">
-      <h2 id="pose-title">2 Pose{isPlan && ` of dip ${draft.value.before.length + 1}`}</h2>
-      {isPlan ? <DipList /> : <From />}
-      {calibrated.value ? <Measured /> : <ByHand />}
+      <h2 id="pose-title">2 {inputOf('pose', dip).label}</h2>
+      {dip === undefined ? <From /> : <DipList />}
+      {calibrated.value ? <Measured /> : <ByHand key={dip} />}
       <AddDip />
     </section>
   );
@@ -27,7 +28,7 @@ function From() {
   if (calibrations.value.length === 0) return null;
   return (
     <Choice
-      label="Source of the pose"
+      {...inputOf('calibration')}
       value={draft.value.calibration}
       onValue={(calibration) => change({ calibration })}
       choices={[
@@ -64,6 +65,8 @@ function Measured() {
 
 function ByHand() {
   const { pose } = draft.value;
+  const problem = useRefusal({ name: 'pose', dip: selectedDip() }, pose);
+  const errorId = problem && 'pose-error';
   const angles = toAngles(pose.rotation);
   const setAngle = (axis: number, degrees: number) => {
     const next = angles.map((angle, i) => (i === axis ? degrees : angle)) as unknown as Vec3;
@@ -84,6 +87,7 @@ function ByHand() {
             value={angles[i]}
             min={-360}
             max={360}
+            errorId={errorId}
             onValue={(value) => setAngle(i, value)}
           />
         ))}
@@ -108,6 +112,7 @@ function ByHand() {
           value={pose.centre_mm[0]}
           min={-1000}
           max={1000}
+          errorId={errorId}
           onValue={(mm) => move(0, mm)}
         />
         <NumberField
@@ -116,12 +121,18 @@ function ByHand() {
           value={pose.centre_mm[1]}
           min={-1000}
           max={1000}
+          errorId={errorId}
           onValue={(mm) => move(1, mm)}
         />
         <button type="button" onClick={() => change({ pose: kUpright })}>
           Reset pose
         </button>
       </div>
+      {problem && (
+        <p class="error" id={errorId}>
+          {problem}
+        </p>
+      )}
     </>
   );
 }

@@ -10,6 +10,7 @@ import { dipsOf, type Dip } from '../../model/dips';
 import { nameFor } from '../../model/files';
 import { done, wordsOf, type Failure, type Result } from '../../model/result';
 import { may } from '../../state/session';
+import { markRefused } from '../../ui/field_errors';
 import { calibrated } from './calibration';
 import { centre_mm, draft, shape, simulateOf, type Draft, type Inputs, type Shape } from './draft';
 import { profileOf, readAgain } from './intake';
@@ -103,6 +104,7 @@ class PreviewRequester {
     window.clearTimeout(this.timer);
     shown.value = undefined;
     trouble.value = '';
+    markRefused('preview');
   }
 
   private async ask(): Promise<void> {
@@ -166,6 +168,7 @@ class PreviewRequester {
       this.hasReadAgain = true;
       return void readAgain();
     }
+    markRefused('preview', failure.violations);
     const why = whyWait(failure);
     shown.value = undefined;
     trouble.value = why ?? wordsOf(failure);
@@ -176,6 +179,7 @@ class PreviewRequester {
     const { map } = preview;
     this.hasReadAgain = false;
     trouble.value = '';
+    markRefused('preview');
     shown.value = {
       positions,
       corners,

@@ -1,10 +1,11 @@
 import * as rules from '../../api/rules';
-import { dipsOf } from '../../model/dips';
+import { inputOf } from '../../model/fields';
 import { filmOf, kFilmChoices } from '../../model/film';
 import { limitsOf } from '../../model/limits';
 import { Choice, NumberField, TextField } from '../../ui/controls';
+import { useRefusal } from '../../ui/field_errors';
 import { calibrated } from './calibration';
-import { change, draft, film, shape } from './draft';
+import { change, draft, film, selectedDip, shape } from './draft';
 
 const kOwn = 'own';
 
@@ -18,7 +19,7 @@ export function FilmPanel() {
       {!calibrated.value && <FilmChoice />}
       <div class="row">
         <Choice
-          label="Resolution"
+          {...inputOf('dpi')}
           value={String(dpi)}
           onValue={(value) => change({ dpi: Number(value) })}
           choices={[...new Set([150, 300, 600, 1200, dpi])].map((value) => ({
@@ -27,13 +28,13 @@ export function FilmPanel() {
           }))}
         />
         <Choice
-          label="Paper"
+          {...inputOf('paper')}
           value={paper}
           onValue={(value) => change({ paper: value })}
           choices={['A4', 'A3', 'letter'].map((value) => ({ value, label: value }))}
         />
         <Choice
-          label="Colours"
+          {...inputOf('colours')}
           value={colours}
           onValue={(value) => change({ colours: value })}
           choices={[
@@ -50,6 +51,8 @@ function FilmChoice() {
   const name = draft.value.film;
   const isListed = kFilmChoices.some((one) => one.name === name);
   const { width_mm, height_mm } = film.value;
+  // Other custom sizes do not change the value of the choice.
+  useRefusal({ name: 'film' }, name);
   const setSize = (width: number, height: number) => {
     const made = `${width}x${height}`;
     if (filmOf(made)) change({ film: made });
@@ -57,7 +60,7 @@ function FilmChoice() {
   return (
     <>
       <Choice
-        label="Film"
+        {...inputOf('film')}
         value={isListed ? name : kOwn}
         onValue={(value) =>
           value === kOwn ? setSize(width_mm + 0.1, height_mm) : change({ film: value })
@@ -94,8 +97,8 @@ function FilmChoice() {
 /** Settings whose defaults are usually right. */
 export function MorePanel() {
   if (!shape.value) return null;
-  const { model, speed_mm_per_s, depth_mm, name, before } = draft.value;
-  const isPlan = dipsOf(draft.value).length > 1;
+  const { model, speed_mm_per_s, depth_mm, name } = draft.value;
+  const dip = selectedDip();
   return (
     <details>
       <summary>More settings</summary>
@@ -107,8 +110,8 @@ export function MorePanel() {
       />
       <div class="row">
         <NumberField
-          key={before.length}
-          label={isPlan ? `Depth of dip ${before.length + 1}` : 'Depth'}
+          key={dip}
+          {...inputOf('depthMm', dip)}
           {...limitsOf(rules.SimulateSpec.depthMm)}
           placeholder="whole object"
           value={depth_mm}
@@ -117,7 +120,7 @@ export function MorePanel() {
           onEmpty={() => change({ depth_mm: undefined })}
         />
         <NumberField
-          label="Dip speed"
+          {...inputOf('dipSpeedMmPerS')}
           {...limitsOf(rules.SimulateSpec.dipSpeedMmPerS)}
           value={speed_mm_per_s}
           digits={3}
@@ -125,7 +128,7 @@ export function MorePanel() {
         />
       </div>
       <Choice
-        label="Simulation model"
+        {...inputOf('model')}
         value={model}
         onValue={(value) => change({ model: value })}
         choices={[

@@ -10,7 +10,7 @@ import { remember } from '../../state/jobs';
 import { complain } from '../../state/notices';
 import { may } from '../../state/session';
 import { Progress } from '../../ui/controls';
-import { remedyOf, useFormErrors } from '../../ui/field_errors';
+import { markRefused, remedyOf, useFormErrors } from '../../ui/field_errors';
 import { calibrated, staleness } from './calibration';
 import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
 import { arrangement, colourless, inputsOf } from './intake';
@@ -30,12 +30,14 @@ let abortController: AbortController | undefined;
 async function submit(): Promise<void> {
   abortController = new AbortController();
   failure.value = undefined;
+  markRefused('job');
   if (!draft.value.requestId) change({});
   const result = await send(abortController.signal);
   sending.value = undefined;
   if (!result.ok) {
     if (result.failure.reason === 'ABORTED_HERE') return;
     failure.value = result.failure;
+    markRefused('job', result.failure.violations);
     return complain(result.failure);
   }
   change({});

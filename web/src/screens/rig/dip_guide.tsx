@@ -1,6 +1,7 @@
 import { useEffect } from 'preact/hooks';
 import { imageAddress, jobs as api } from '../../api/services';
 import type { Job } from '../../api/types';
+import { withLabel } from '../../model/fields';
 import { formatSeconds } from '../../model/units';
 import { jobPath } from '../../route';
 import { known, refresh, remember } from '../../state/jobs';
@@ -107,7 +108,7 @@ export function DipEnd({ name, again }: { name: string; again: () => void }) {
     <section class="dip" aria-labelledby="end-title">
       <h2 id="end-title">The dip has ended: {job ? <State state={job.state} /> : '…'}</h2>
       {job?.dipStatus?.instruction && <p class="instruction">{job.dipStatus.instruction}</p>}
-      {job?.error && <p class="warning">{job.error.message}</p>}
+      {job?.error && <p class="warning">{withLabel(job.error.field, job.error.message)}</p>}
       <p class="row">
         {job?.dipStatus?.planJob && (
           <a class="button primary" href={jobPath(job.dipStatus.planJob)}>

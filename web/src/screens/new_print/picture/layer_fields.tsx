@@ -1,5 +1,6 @@
 /** The numbers of the picture's layer. An empty field has the worker's default, which it shows. */
 import * as rules from '../../../api/rules';
+import { inputOf } from '../../../model/fields';
 import { limitsOf } from '../../../model/limits';
 import type { Vec3 } from '../../../model/pose';
 import { Check, NumberField } from '../../../ui/controls';
@@ -37,7 +38,7 @@ function Size() {
   return (
     <div class="row">
       <NumberField
-        label="Width of the picture"
+        {...inputOf('paint.layers.sizeMm')}
         {...limitsOf(rules.PaintLayer.sizeMm)}
         min={kLeastSize_mm}
         placeholder={fittedWidth()}
@@ -46,7 +47,7 @@ function Size() {
         onEmpty={() => choose({ size_mm: undefined })}
       />
       <NumberField
-        label="Turn of the picture"
+        {...inputOf('paint.layers.turnDeg')}
         {...limitsOf(rules.PaintLayer.turnDeg)}
         value={turn_deg}
         onValue={(value) => choose({ turn_deg: value })}
@@ -64,7 +65,7 @@ const fittedWidth = (): string =>
 
 const Depth = () => (
   <NumberField
-    label="Depth of the sticker"
+    {...inputOf('paint.layers.depthMm')}
     {...limitsOf(rules.PaintLayer.depthMm)}
     min={kLeastSize_mm}
     placeholder="unlimited"
@@ -111,7 +112,7 @@ const kPercent = 100;
 
 const Opacity = () => (
   <NumberField
-    label="Opacity"
+    {...inputOf('paint.layers.opacity')}
     unit="%"
     min={0}
     max={kPercent}
@@ -124,7 +125,7 @@ const Opacity = () => (
 
 const Blend = () => (
   <NumberField
-    label="Blend over"
+    {...inputOf('paint.layers.blendMm')}
     {...limitsOf(rules.PaintLayer.blendMm)}
     min={kLeastSize_mm}
     placeholder={placement.value?.blend_mm.toFixed(1) ?? 'fitted'}
