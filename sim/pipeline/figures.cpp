@@ -395,10 +395,20 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
 }
 
 Warnings warnings_of_profile(const DipOptions& options) {
-  if (options.film_model != FilmModel::kStokes || options.profile.drag_length_mm <= 0) return {};
-  return {{WarningCode::DRAG_IGNORED,
-           "Stokes flow ignores water drag (drag_length_mm). Use the sheet model",
-           {OfItem{"film profile"}}}};
+  constexpr double kFastest_mm_per_s = 10;  // of the dips with which the method was measured
+  Warnings warnings;
+  if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
+    warnings.push_back({WarningCode::DRAG_IGNORED,
+                        "Stokes flow ignores water drag (drag_length_mm). Use the sheet model",
+                        {OfItem{"film profile"}}});
+  }
+  if (options.dip_speed_mm_per_s > kFastest_mm_per_s) {
+    warnings.push_back({WarningCode::DIP_FAST,
+                        fmt::format("above {} mm/s the water itself moves, which the model leaves "
+                                    "out. Dip more slowly, or make a test print",
+                                    kFastest_mm_per_s)});
+  }
+  return warnings;
 }
 
 Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,

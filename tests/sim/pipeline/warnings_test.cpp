@@ -134,6 +134,15 @@ TEST(Warnings, DragIgnoredIsForStokes) {
   EXPECT_FALSE(warns(dipped(sphere, with_drag), WarningCode::DRAG_IGNORED));
 }
 
+TEST(Warnings, DipFastIsForSpeedsBeyondTheMeasuredOnes) {
+  DipOptions options = to_angle(40);
+  options.dip_speed_mm_per_s = 10;
+  EXPECT_TRUE(warnings_of_profile(options).empty());
+  options.dip_speed_mm_per_s = 10.5;
+  ASSERT_EQ(warnings_of_profile(options).size(), 1U);
+  EXPECT_EQ(warnings_of_profile(options)[0].code, WarningCode::DIP_FAST);
+}
+
 // Tested with numbers instead of a body: slits that are too narrow to mesh are closed beforehand,
 // so hardly any body causes this warning.
 TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
