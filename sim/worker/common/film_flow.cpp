@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 
@@ -101,6 +102,17 @@ std::vector<Stage> stages(const FlowOptions& options, bool is_simulation, bool i
   }
   out.push_back({"writing", 4});
   return out;
+}
+
+void set_film_used(const flow::SurfaceMap& map, v1::FlowFacts& out) {
+  Eigen::AlignedBox2d used;
+  for (const Eigen::Vector2d& point_mm : map.film_mm)
+    if (point_mm.allFinite()) used.extend(point_mm);
+  if (used.isEmpty()) return;
+  for (const int axis : {0, 1}) {
+    out.add_film_used_min_mm(used.min()[axis]);
+    out.add_film_used_max_mm(used.max()[axis]);
+  }
 }
 
 }  // namespace
@@ -217,6 +229,7 @@ void set_flow(const pipeline::Dip& dip, v1::MeshFacts& mesh, v1::FlowFacts& out)
   if (figures.error) set_error(*figures.error, *out.mutable_error());
   out.set_sheet_unsettled_mm(figures.unsettled_mm);
   add_ink_passes(figures.ink_passes, out);
+  set_film_used(dip.map.surface, out);
 }
 
 std::string flow_summary(const std::filesystem::path& dir, const v1::RunFacts& run,

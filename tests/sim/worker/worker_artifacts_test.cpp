@@ -187,6 +187,11 @@ TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   EXPECT_EQ(dip["pose"]["translation_mm"][1], -4);
   EXPECT_NEAR(dip["pose"]["translation_mm"][2].get<double>(), 12, 1e-5);
   EXPECT_EQ(report["mesh"]["triangles"], 2 * 24 * 11);
+  for (const int axis : {0, 1}) {  // the film that lands is around the first contact
+    const double contact_mm = axis == 0 ? 3 : -4;
+    EXPECT_LT(report["flow"]["film_used_min_mm"][axis], contact_mm - 1);
+    EXPECT_GT(report["flow"]["film_used_max_mm"][axis], contact_mm + 1);
+  }
   ASSERT_EQ(report["mesh"]["shells"].size(), 1U);
   const auto& shell = report["mesh"]["shells"][0];
   EXPECT_EQ(shell["triangles"], 2 * 24 * 11);
