@@ -75,6 +75,7 @@ std::vector<Key> make_keys() {
       {"workers", "memory_mib", Number{&Config::workers_memory_mib, 0, 1 << 24, "MiB"}},
       {"workers", "time_limit_s", Number{&Config::workers_time_limit_s, 1, 2592000, "seconds"}},
       {"workers", "file_mib", Number{&Config::workers_file_mib, 1, 1 << 24, "MiB"}},
+      {"workers", "allow_without_landlock", Flag{&Config::workers_allow_without_landlock}},
       {"workers", "executor", Text{&Config::workers_executor, {"local", "slurm"}}},
       {"workers.slurm", "folder", Text{&Config::slurm_folder}},
       {"workers.slurm", "installation", Text{&Config::slurm_installation}},

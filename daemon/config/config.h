@@ -37,9 +37,11 @@ struct Config {
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
   /// workers.threads per worker; 0: the cores are divided among the workers.
   std::int64_t workers_threads = 0;
-  std::int64_t workers_memory_mib = 4096;      ///< workers.memory_mib per worker; 0: no limit
-  std::int64_t workers_time_limit_s = 3600;    ///< workers.time_limit_s per job
-  std::int64_t workers_file_mib = 4096;        ///< workers.file_mib, per file that a worker writes
+  std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
+  std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
+  std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, per file that a worker writes
+  /// workers.allow_without_landlock: also run workers on a kernel without Landlock.
+  bool workers_allow_without_landlock = false;
   std::string workers_executor = "local";      ///< workers.executor: "local" or "slurm"
   std::string slurm_folder;                    ///< workers.slurm.folder, shared with all nodes
   std::string slurm_installation = "default";  ///< workers.slurm.installation

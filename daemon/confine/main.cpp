@@ -52,10 +52,16 @@ void write_granted(const daemon::UniqueFd& file, const std::filesystem::path& pa
   }
 }
 
+// With these variables, OpenMP starts each thread with a call that is refused, and gives up.
+void forget_places() {
+  for (const char* name : {"OMP_PLACES", "OMP_PROC_BIND", "GOMP_CPU_AFFINITY"}) ::unsetenv(name);
+}
+
 [[noreturn]] void become(const std::filesystem::path& program, std::vector<std::string> command) {
   std::vector<char*> arguments;
   for (std::string& text : command) arguments.push_back(text.data());
   arguments.push_back(nullptr);
+  forget_places();
   ::close_range(kFirstClosed, ~0U, 0);
   ::execv(program.c_str(), arguments.data());
   give_up(command.front().c_str());
@@ -77,12 +83,17 @@ int check(const Options& options) {
   const char* const step = confine(options.limits, {});
   const int reason = errno;
   fmt::print("{}", granted_json(step == nullptr));
-  if (step == nullptr) return static_cast<int>(ExitStatus::kDone);
-  fmt::print(stderr,
-             "this machine cannot confine workers ({}: {}); use a kernel and a container that "
-             "allow seccomp filters\n",
-             step, std::strerror(reason));
-  return static_cast<int>(ExitStatus::kFailed);
+  if (step != nullptr) {
+    fmt::print(stderr, "this machine cannot confine workers ({}: {})\n", step,
+               std::strerror(reason));
+    return static_cast<int>(ExitStatus::kFailed);
+  }
+  if (landlock_version() == 0) {
+    fmt::print(stderr,
+               "without Landlock, workers can read, write and delete every file that the daemon's "
+               "user may; use a kernel and a container that have it\n");
+  }
+  return static_cast<int>(ExitStatus::kDone);
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ Examples:
   hydroprint-confine --check
 
 Arguments after -- are PROGRAM, a path or a name in PATH, and its arguments. PROGRAM inherits the working directory, the
-environment and the descriptors 0 to 3. It can read system files, its own folder, --inputs and --work, and write only to
---work. It has no network, and it can signal only its own threads.
+descriptors 0 to 3, and the environment without OMP_PLACES, OMP_PROC_BIND and GOMP_CPU_AFFINITY. It can read system files,
+its own folder, --inputs and --work, and write only to --work. It has no network, it cannot start processes, and it can
+signal only its own threads. Without Landlock in the kernel, PROGRAM is not started.
 
 Exit status: that of PROGRAM; 2 bad usage; 127 if PROGRAM cannot be started. Of --check: 0 this machine can confine
 programs, 4 it cannot.)";
@@ -72,6 +73,10 @@ void declare(CLI::App& app, Options& o) {
             "Processor time of PROGRAM, in seconds; default: unlimited");
   add_limit(app, "--file-mib", o.limits.file_bytes, kMiB,
             "Size of each file that PROGRAM writes, in MiB; default: unlimited");
+  app.add_flag_callback(
+      "--allow-without-landlock", [&o] { o.limits.needs_landlock = false; },
+      "Also start PROGRAM if the kernel has no Landlock; it can then read, write and delete every "
+      "file of its user");
 }
 
 void require(bool is_given, const char* name) {

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <linux/landlock.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "daemon/confine/landlock.h"
 #include "tests/support/paths.h"
 #include "tests/support/process.h"
 
@@ -23,9 +21,9 @@ inline Ended confine(Words arguments, const ProcessOptions& options = {}) {
   return run(std::move(arguments), options);
 }
 
-inline bool kernel_has_landlock() {
-  return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 0;
-}
+inline bool kernel_has_landlock() { return hydroprint::confine::landlock_version() > 0; }
+
+inline constexpr const char* kAllow = "--allow-without-landlock";
 
 /// hydroprint-confine with two folders.
 class Confine : public ::testing::Test {
@@ -35,10 +33,11 @@ class Confine : public ::testing::Test {
     std::filesystem::create_directory(work);
   }
 
-  /// Runs a command with these folders and further flags.
+  /// Runs a command with these folders and further flags, also if this kernel has no Landlock.
   [[nodiscard]] Ended run_confined(const Words& command, const Words& flags = {},
                                    const ProcessOptions& options = {}) const {
     Words all{"--inputs", inputs, "--work", work, "--memory-mib", "64"};
+    if (!kernel_has_landlock()) all.emplace_back(kAllow);
     all.insert(all.end(), flags.begin(), flags.end());
     all.emplace_back("--");
     all.insert(all.end(), command.begin(), command.end());

@@ -69,15 +69,15 @@ TEST(ConfineUsage, UnknownFlagsAndProgramsWithoutMarkerAreRefused) {
 TEST(ConfineUsage, HelpAndVersionArePrinted) {
   const Ended help = confine({"--help"});
   EXPECT_EQ(help.status, 0);
-  for (const char* flag :
-       {"--inputs", "--work", "--memory-mib", "--cpu-s", "--file-mib", "--granted", "--check"}) {
+  for (const char* flag : {"--inputs", "--work", "--memory-mib", "--cpu-s", "--file-mib",
+                           "--granted", "--check", kAllow}) {
     EXPECT_NE(help.out.find(flag), std::string::npos) << flag;
   }
   EXPECT_TRUE(confine({"--version"}).out.starts_with("hydroprint-confine 0."));
 }
 
 TEST_F(Confine, CheckSaysWhatTheKernelGrants) {
-  const Ended ended = confine({"--check", "--memory-mib", "100", "--cpu-s", "7"});
+  const Ended ended = confine({"--check", kAllow, "--memory-mib", "100", "--cpu-s", "7"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   const auto granted = nlohmann::json::parse(ended.out);
   EXPECT_TRUE(granted["seccomp"].get<bool>());
@@ -94,8 +94,8 @@ TEST_F(Confine, CheckSaysWhatTheKernelGrants) {
 TEST_F(Confine, CheckSaysTheSmallerLimit) {
   ProcessOptions options;
   options.limits = {{RLIMIT_CPU, 100}, {RLIMIT_FSIZE, 5 << 20}, {RLIMIT_NOFILE, 64}};
-  const Ended ended =
-      confine({"--check", "--cpu-s", "1000", "--file-mib", "3", "--memory-mib=unlimited"}, options);
+  const Ended ended = confine(
+      {"--check", kAllow, "--cpu-s", "1000", "--file-mib", "3", "--memory-mib=unlimited"}, options);
   const auto limits = nlohmann::json::parse(ended.out)["limits"];
   EXPECT_EQ(limits["cpu_s"], 100);
   EXPECT_EQ(limits["file_bytes"], 3 << 20);
@@ -110,8 +110,8 @@ TEST_F(Confine, GrantedFileIsWrittenBeforeTheProgramStarts) {
   const auto granted = nlohmann::json::parse(ended.out);
   EXPECT_TRUE(granted["seccomp"].get<bool>());
   EXPECT_EQ(granted["limits"]["file_bytes"], 9 << 20);
-  const auto check =
-      nlohmann::json::parse(confine({"--check", "--memory-mib", "64", "--file-mib", "9"}).out);
+  const auto check = nlohmann::json::parse(
+      confine({"--check", kAllow, "--memory-mib", "64", "--file-mib", "9"}).out);
   EXPECT_EQ(granted, check);
 }
 
@@ -139,7 +139,8 @@ TEST_F(Confine, ProgramThatCannotBeStartedIsNamed) {
 TEST_F(Confine, FoldersThatDoNotExistAreNamed) {
   const std::string missing = folder.path() / "missing", file = folder.write("file", "x");
   const auto started = [&](const std::string& in, const std::string& out) {
-    return confine({"--inputs", in, "--work", out, "--memory-mib", "64", "--", "/bin/echo", "y"});
+    return confine(
+        {"--inputs", in, "--work", out, "--memory-mib", "64", kAllow, "--", "/bin/echo", "y"});
   };
   expect_not_started(started(missing, work), missing, ENOENT);
   expect_not_started(started(inputs, missing), missing, ENOENT);
@@ -157,16 +158,27 @@ TEST_F(Confine, GrantedFileOnAFullDiskPreventsTheStart) {
 
 TEST_F(Confine, RelativePathsMeanTheWorkingDirectory) {
   (void)std::ofstream(inputs + "/model.obj").put('m');
-  const Ended ended = run({"/usr/bin/env", "-C",
-                           folder.path(),  program_path("hydroprint-confine"),
-                           "--inputs",     "in",
-                           "--work",       "work",
-                           "--memory-mib", "64",
-                           "--granted",    "granted",
-                           "--",           program_path("daemon_confine_probe"),
-                           "read",         "in/model.obj",
-                           "write",        "work/film.png",
-                           "write",        "film.png"});
+  const Ended ended = run({"/usr/bin/env",
+                           "-C",
+                           folder.path(),
+                           program_path("hydroprint-confine"),
+                           "--inputs",
+                           "in",
+                           "--work",
+                           "work",
+                           "--memory-mib",
+                           "64",
+                           kAllow,
+                           "--granted",
+                           "granted",
+                           "--",
+                           program_path("daemon_confine_probe"),
+                           "read",
+                           "in/model.obj",
+                           "write",
+                           "work/film.png",
+                           "write",
+                           "film.png"});
   EXPECT_EQ(ended.out.substr(0, 21), "read: yes\nwrite: yes\n") << ended.err;
   EXPECT_EQ(std::filesystem::exists(folder.path() / "film.png"), !kernel_has_landlock());
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "granted"));
@@ -211,35 +223,80 @@ TEST_F(Confine, ArgumentsReachTheProgramUnchanged) {
             "--\n\n[a,b]\n--work\n--memory-mib=0\na b\n%x\n");
 }
 
+TEST_F(Confine, PassesOnTheEnvironmentWithoutPlacesOfThreads) {
+  const Ended ended =
+      run({"/usr/bin/env", "OMP_PROC_BIND=true", "OMP_PLACES=cores", "GOMP_CPU_AFFINITY=0",
+           "OMP_NUM_THREADS=7", program_path("hydroprint-confine"), "--inputs", inputs, "--work",
+           work, "--memory-mib", "64", kAllow, "--", "/usr/bin/env"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("OMP_NUM_THREADS=7"), std::string::npos);
+  for (const char* name : {"OMP_PROC_BIND", "OMP_PLACES", "GOMP_CPU_AFFINITY"}) {
+    EXPECT_EQ(ended.out.find(name), std::string::npos) << ended.out;
+  }
+}
+
 TEST_F(Confine, EndsAsItsProgramDoes) {
   EXPECT_EQ(run_confined({"/bin/sh", "-c", "echo words >&2; exit 42"}).status, 42);
   EXPECT_EQ(run_confined({"/bin/sh", "-c", "echo words >&2; exit 42"}).err, "words\n");
 }
 
 TEST_F(Confine, KernelWithoutSeccompIsRefused) {
+  const std::string step =
+      "cannot install the system call filter; use a kernel and a container that allow it";
   const KernelWithout missing({SYS_seccomp}, EPERM, /*also_prctl=*/true);
   expect_not_started(missing.call([&] {
     return run_confined({"/bin/echo", "started"});
   }),
-                     "cannot install the system call filter", EPERM);
-  const Ended check = missing.call([] { return confine({"--check"}); });
+                     step, EPERM);
+  const Ended check = missing.call([] { return confine({"--check", kAllow}); });
   EXPECT_EQ(check.status, 4);
   EXPECT_FALSE(nlohmann::json::parse(check.out)["seccomp"].get<bool>());
-  EXPECT_TRUE(check.err.starts_with("this machine cannot confine workers (")) << check.err;
+  EXPECT_TRUE(check.err.starts_with("this machine cannot confine workers (" + step + ": "))
+      << check.err;
 }
 
-// Workers still run, because older kernels have no Landlock.
-TEST_F(Confine, KernelWithoutLandlockIsNotRefused) {
+// ENOSYS: not built in. EOPNOTSUPP: not among lsm= at boot. EPERM: refused by a container.
+TEST_F(Confine, KernelWithoutLandlockIsRefusedWithTheRemedy) {
+  for (const int error : {ENOSYS, EOPNOTSUPP, EPERM}) {
+    const KernelWithout missing({SYS_landlock_create_ruleset}, error);
+    expect_not_started(missing.call([&] {
+      return confine(
+          {"--inputs", inputs, "--work", work, "--memory-mib", "64", "--", "/bin/echo", "started"});
+    }),
+                       "this kernel or container has no Landlock; use one that has it, or set "
+                       "workers.allow_without_landlock (flag --allow-without-landlock)",
+                       error);
+    const Ended check = missing.call([] { return confine({"--check"}); });
+    EXPECT_EQ(check.status, 4);
+    EXPECT_NE(check.err.find("workers.allow_without_landlock"), std::string::npos) << check.err;
+  }
+}
+
+TEST_F(Confine, KernelWithoutLandlockIsUsedIfAllowed) {
   const KernelWithout missing({SYS_landlock_create_ruleset}, ENOSYS);
   const std::string file = work + "/granted";
   const Ended ended = missing.call([&] {
-    return run_confined({program_path("daemon_confine_probe"), "socket", "x"}, {"--granted", file});
+    return run_confined({program_path("daemon_confine_probe"), "socket", "x"},
+                        {"--granted", file, kAllow});
   });
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.out.find("yes"), std::string::npos);
   const auto granted = nlohmann::json::parse(content(file));
   EXPECT_TRUE(granted["seccomp"].get<bool>());
   EXPECT_EQ(granted["landlock_version"], 0);
+  const Ended check = missing.call([] { return confine({"--check", kAllow}); });
+  EXPECT_EQ(check.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(check.out)["landlock_version"], 0);
+  EXPECT_NE(check.err.find("read, write and delete every file"), std::string::npos) << check.err;
+}
+
+TEST_F(Confine, CheckOfAKernelWithLandlockHasNoWarning) {
+  if (!kernel_has_landlock()) GTEST_SKIP() << "this kernel has no Landlock";
+  for (const Words& flags : {Words{"--check"}, Words{"--check", kAllow}}) {
+    const Ended check = confine(flags);
+    EXPECT_EQ(check.status, 0);
+    EXPECT_EQ(check.err, "");
+  }
 }
 
 TEST_F(Confine, LandlockThatFailsIsRefused) {

@@ -6,6 +6,7 @@
 //   write FILE     appends a byte to a file
 //   list DIR       lists a folder
 //   truncate FILE  empties a file by name
+//   empty FILE     empties a file by opening it, but not for writing
 //   move FILE      renames FILE to FILE.moved
 //   socket x       opens sockets of several families
 //   self x         signals a thread of this process
@@ -14,6 +15,10 @@
 //   grow MIB       allocates and fills memory
 //   echo FD        copies the bytes of a descriptor to stdout
 //   open x         lists the open descriptors
+//   refused FILE   tries each call that is refused
+//   missing FILE   tries each call that does not exist for confined programs
+//   needed DIR     uses what the libraries of workers need
+//   interface I    makes a call of the binary interface "i386" or "x32"
 //   arguments ...  prints all further arguments, one a line
 //
 // Each outcome is a line "ACTION: yes" or "ACTION: REASON".
@@ -35,15 +40,13 @@
 #include <thread>
 #include <vector>
 
+#include "tests/daemon/confine/probe_calls.h"
+
 namespace {
 
 volatile std::sig_atomic_t signals = 0;
 
 void count_signal(int) { signals = signals + 1; }
-
-void print(const std::string& action, bool succeeded) {
-  std::cout << action << ": " << (succeeded ? "yes" : std::strerror(errno)) << std::endl;
-}
 
 void read_byte(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY);
@@ -54,6 +57,13 @@ void read_byte(const std::string& path) {
 void write_byte(const std::string& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
   print("write", file >= 0 && ::write(file, "x", 1) == 1);
+}
+
+void empty(const std::string& path) {
+  print("O_RDONLY", ::open(path.c_str(), O_RDONLY | O_TRUNC) >= 0);
+  print("mode 3", ::open(path.c_str(), O_ACCMODE | O_TRUNC) >= 0);
+  // The kernel ignores the upper half of the flags.
+  print("by long flags", ::syscall(SYS_open, path.c_str(), O_TRUNC | (1L << 32)) >= 0);
 }
 
 void open_sockets() {
@@ -139,6 +149,11 @@ void perform(const std::string& action, const std::string& argument) {
   if (action == "write") write_byte(argument);
   if (action == "list") print(action, ::opendir(argument.c_str()) != nullptr);
   if (action == "truncate") print(action, ::truncate(argument.c_str(), 0) == 0);
+  if (action == "empty") empty(argument);
+  if (action == "refused") try_refused_calls(argument);
+  if (action == "missing") try_missing_calls(argument);
+  if (action == "needed") use_needed_calls(argument);
+  if (action == "interface") call_as(argument);
   if (action == "move") {
     print(action, ::rename(argument.c_str(), (argument + ".moved").c_str()) == 0);
   }
