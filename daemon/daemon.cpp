@@ -42,6 +42,7 @@ PoolOptions pool_options(const Config& config) {
   options.memory_bytes = config.workers_memory_mib * kMiB;
   options.time_limit_s = config.workers_time_limit_s;
   options.file_bytes = config.workers_file_mib * kMiB;
+  options.needs_landlock = !config.workers_allow_without_landlock;
   return options;
 }
 
@@ -58,7 +59,7 @@ PreviewOptions preview_options(const PoolOptions& pool) {
   return {pool.program,
           pool.confine_program,
           pool.threads > 0 ? pool.threads : core_count(),
-          {pool.memory_bytes, a_day_s, pool.file_bytes}};
+          {pool.memory_bytes, a_day_s, pool.file_bytes, pool.needs_landlock}};
 }
 
 Quota quota_of(const Config& config) {
@@ -82,6 +83,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config,
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
   HP_RETURN_IF_ERROR(check_build(daemon->layout_.database()));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
+  HP_RETURN_IF_ERROR(correct_modes(daemon->layout_));
   HP_RETURN_IF_ERROR(check_restored(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
   HP_RETURN_IF_ERROR(daemon->open_certificate(config));
@@ -246,9 +248,14 @@ Status Daemon::open_camera(const Config& config) {
 }
 
 Status Daemon::start_serving(const Config& config) {
-  HP_RETURN_IF_ERROR(check_confinement(config.confine_program));
-  HP_ASSIGN_OR_RETURN(pool_, WorkerPool::make(pool_options(config), *executor_, *jobs_, *queue_,
-                                              layout_, system_clock_ms));
+  HP_ASSIGN_OR_RETURN(
+      const std::string warning,
+      check_confinement(config.confine_program, !config.workers_allow_without_landlock));
+  if (!warning.empty()) log(LogLevel::kWarning, "files_not_fenced", {{"message", warning}});
+  PoolOptions workers = pool_options(config);
+  workers.confinement_warning = warning;
+  HP_ASSIGN_OR_RETURN(
+      pool_, WorkerPool::make(workers, *executor_, *jobs_, *queue_, layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewPool::make(preview_options(pool_options(config)), layout_));
   const ServiceContext backend{*database_,       *accounts_,  *audit_,
                                *access_,         *jobs_,      *queue_,
@@ -262,12 +269,6 @@ Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(server_,
                       Server::start(endpoint, config.server_reflection, backend, identity()));
   HP_RETURN_IF_ERROR(start_http(config, backend));
-  if (confine::landlock_version() == 0) {
-    log(LogLevel::kWarning, "files_not_fenced",
-        {{"message",
-          "this kernel has no Landlock, so workers can read all files of this user; use a kernel "
-          "with Landlock"}});
-  }
   pool_->start();
   monitor_ = std::make_unique<RigMonitor>(*gateway_, *places_,
                                           [this](bool works) { server_->set_rig_serving(works); });

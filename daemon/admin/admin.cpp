@@ -8,6 +8,7 @@
 
 #include "daemon/admin/backup.h"
 #include "daemon/admin/check.h"
+#include "daemon/admin/damaged_database.h"
 #include "daemon/admin/offline_accounts.h"
 #include "daemon/admin/restore.h"
 #include "sim/base/number_text.h"
@@ -70,6 +71,15 @@ Status run_link(const Options& options) {
   return {};
 }
 
+Status run_set_aside(const Options& options) {
+  HP_ASSIGN_OR_RETURN(const auto path, set_database_aside(options.state_dir));
+  std::cout << "the database is now " << one_line(path.string())
+            << "; the daemon starts with an empty one, without users and jobs, and sets all other "
+               "files aside; hydroprint admin restore --replace FILE restores a backup instead"
+            << std::endl;
+  return {};
+}
+
 int run_check(const Options& options, const Configure& configure) {
   const std::string file = configuration_file(options.config_file);
   return static_cast<int>(check(file, configure(file, options.state_dir)));
@@ -101,7 +111,9 @@ int run_command(int argc, char** argv, const Configure& configure) {
   CLI::App* const to_link =
       add(app, "sign-in-link", "Create a link that signs the user in once", options);
   to_link->add_option("user", options.user)->required();
-  CLI::App* const to_check = add(app, "check", "Check whether the daemon can run workers", options);
+  CLI::App* const to_set_aside = add(app, "set-aside", "Set a damaged database aside", options);
+  CLI::App* const to_check =
+      add(app, "check", "Check whether the daemon can run workers, and its data", options);
   to_check->add_option("--config", options.config_file, "The daemon's configuration")
       ->type_name("FILE");
   try {
@@ -110,10 +122,11 @@ int run_command(int argc, char** argv, const Configure& configure) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
   }
   if (to_check->parsed()) return run_check(options, configure);
-  const Status done = to_backup->parsed()    ? run_backup(options)
-                      : to_restore->parsed() ? run_restore(options)
-                      : to_reset->parsed()   ? run_reset(options)
-                                             : run_link(options);
+  const Status done = to_backup->parsed()      ? run_backup(options)
+                      : to_restore->parsed()   ? run_restore(options)
+                      : to_reset->parsed()     ? run_reset(options)
+                      : to_set_aside->parsed() ? run_set_aside(options)
+                                               : run_link(options);
   if (done) return 0;
   std::cerr << "hydroprint: " << one_line(done.error().message) << std::endl;
   return static_cast<int>(exit_status(done.error()));

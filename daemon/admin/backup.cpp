@@ -35,14 +35,6 @@ Status leave_out_what_passes(daemon::Database& snapshot) {
   return snapshot.run("DELETE FROM settings WHERE name IN ('people_changed', 'people_read')");
 }
 
-Result<bool> is_named(daemon::Database& database, const NamedFile& file) {
-  bool is_there = false;
-  HP_RETURN_IF_ERROR(database.each(
-      file.job == 0 ? "SELECT 1 FROM assets WHERE sha256=?1" : "SELECT 1 FROM jobs WHERE id=?2",
-      {file.sha256, file.job}, [&](const DbRow&) { is_there = true; }));
-  return is_there;
-}
-
 // Removes from the snapshot a file that cannot be read; removes its whole job if the job has been
 // deleted meanwhile.
 Status forget(daemon::Database& snapshot, const NamedFile& file, bool is_deleted) {
@@ -136,6 +128,14 @@ Result<std::vector<NamedFile>> named_files(daemon::Database& database) {
                                        row.integer(2), row.text(3), row.integer(0)});
                     }));
   return files;
+}
+
+Result<bool> is_named(daemon::Database& database, const NamedFile& file) {
+  bool is_there = false;
+  HP_RETURN_IF_ERROR(database.each(
+      file.job == 0 ? "SELECT 1 FROM assets WHERE sha256=?1" : "SELECT 1 FROM jobs WHERE id=?2",
+      {file.sha256, file.job}, [&](const DbRow&) { is_there = true; }));
+  return is_there;
 }
 
 Result<std::int64_t> count_jobs(daemon::Database& database) {

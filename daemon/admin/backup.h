@@ -37,6 +37,9 @@ struct NamedFile {
 };
 [[nodiscard]] Result<std::vector<NamedFile>> named_files(daemon::Database& database);
 
+/// Returns whether a database still refers to a file.
+[[nodiscard]] Result<bool> is_named(daemon::Database& database, const NamedFile& file);
+
 /// Returns the number of jobs.
 [[nodiscard]] Result<std::int64_t> count_jobs(daemon::Database& database);
 

@@ -8,8 +8,11 @@
 #include <iostream>
 
 #include "daemon/admin/offline_state.h"
+#include "daemon/admin/store_check.h"
 #include "daemon/platform/check_line.h"
+#include "daemon/platform/private_files.h"
 #include "daemon/store/database/schema.h"
+#include "daemon/store/state_lock.h"
 #include "daemon/workers/child_process.h"
 #include "daemon/workers/program_digest.h"
 #include "daemon/workers/slurm/cluster_check.h"
@@ -54,13 +57,19 @@ class Printer {
   Clock::time_point shown_ = Clock::now();
 };
 
-Result<std::string> check_confine(const daemon::Config& config) {
-  HP_RETURN_IF_ERROR(daemon::check_confinement(config.confine_program));
-  return "this machine can confine workers";
+CheckLine check_confine(const daemon::Config& config) {
+  constexpr const char* kWhat = "confinement";
+  const auto warning =
+      daemon::check_confinement(config.confine_program, !config.workers_allow_without_landlock);
+  if (warning && !warning->empty()) return {CheckLine::Verdict::kNote, kWhat, *warning};
+  return check_line(kWhat, warning.map([](const std::string&) -> std::string {
+    return "this machine can confine workers";
+  }));
 }
 
-Result<std::string> check_state(const std::string& named) {
+Result<daemon::Layout> check_state(const std::string& named) {
   HP_ASSIGN_OR_RETURN(const std::filesystem::path root, state_root(named));
+  const daemon::Layout layout{root};
   std::error_code ignored;
   if (!std::filesystem::is_directory(root, ignored)) {
     return fail(Code::kNotFound,
@@ -68,12 +77,33 @@ Result<std::string> check_state(const std::string& named) {
                     ": does not exist; name the right folder with --state-dir, or start the "
                     "daemon once, which creates it");
   }
-  HP_RETURN_IF_ERROR(check_is_mine(root));
+  HP_RETURN_IF_ERROR(daemon::check_is_mine(root));
   if (::access(root.c_str(), R_OK | W_OK | X_OK) != 0) {
     return daemon::system_failure(root, "cannot be written");
   }
-  HP_RETURN_IF_ERROR(daemon::check_build(daemon::Layout{root}.database()));
-  return root.string() + " can be written";
+  HP_RETURN_IF_ERROR(daemon::check_build(layout.database()));
+  return layout;
+}
+
+Result<std::string> check_private(const daemon::Layout& layout) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(layout.database(), ignored)) {
+    return layout.root.string() + " can be written";  // the first start makes it private
+  }
+  for (const daemon::PrivatePath& each : daemon::private_paths(layout)) {
+    HP_RETURN_IF_ERROR(daemon::check_is_mine(each.path));
+    HP_RETURN_IF_ERROR(daemon::check_mode(each.path, each.mode));
+  }
+  return layout.root.string() + " can be written, and only by this user";
+}
+
+void check_state_and_store(const std::string& named, Printer& printer) {
+  const auto layout = check_state(named);
+  printer.add(check_line("state folder", layout.and_then(check_private)));
+  if (!layout) return;
+  check_store(
+      *layout, [&](const CheckLine& line) { printer.add(line); },
+      [] { return is_interrupted != 0; });
 }
 
 void check_all(const daemon::Config& config, Printer& printer) {
@@ -81,8 +111,8 @@ void check_all(const daemon::Config& config, Printer& printer) {
   printer.add(check_line("worker", build_id.map([&](const std::string& id) {
     return fmt::format("{}, build {}", config.workers_program, id);
   })));
-  printer.add(check_line("confinement", check_confine(config)));
-  printer.add(check_line("state folder", check_state(config.store_state_dir)));
+  printer.add(check_confine(config));
+  check_state_and_store(config.store_state_dir, printer);
   if (config.workers_executor != "slurm" || is_interrupted != 0) return;
   daemon::slurm::check_cluster(
       config, build_id.value_or(""),

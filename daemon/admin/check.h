@@ -11,7 +11,8 @@ namespace hydroprint::admin {
 [[nodiscard]] std::string configuration_file(const std::string& named);
 
 /// Implements `hydroprint admin check`: prints one line for each thing that the daemon needs to run
-/// workers. Changes nothing and needs no lock, so that a daemon may be running.
+/// workers, and for each fault of its database and files. Changes nothing and needs no lock, so
+/// that a daemon may be running.
 /// @param file    name of the configuration, for the lines
 /// @param config  of the daemon, or why it would not start with it
 /// @return kDone, or kFailed if there is a fault; kCancelled after SIGINT or SIGTERM

@@ -31,8 +31,8 @@ struct State {
 /// daemon.
 [[nodiscard]] Result<std::filesystem::path> state_root(const std::filesystem::path& root);
 
-/// Returns kPermissionDenied if a folder belongs to another user.
-[[nodiscard]] Status check_is_mine(const std::filesystem::path& folder);
+/// Returns kNotFound if a folder has no database, or if this user cannot read it.
+[[nodiscard]] Status check_has_database(const daemon::Layout& layout);
 
 /// Returns the name of the user who runs this process, or of the user who called sudo.
 [[nodiscard]] std::string operator_name();

@@ -138,11 +138,11 @@ class Unpacked {
                       "build. Nothing was restored",
                   ErrorReason::STORE_DIFFERS);
     }
-    HP_ASSIGN_OR_RETURN(const auto database, daemon::open_store(path));
-    std::string verdict;
-    HP_RETURN_IF_ERROR(database->each("PRAGMA quick_check(1)", {},
-                                      [&](const daemon::DbRow& row) { verdict = row.text(0); }));
-    if (verdict != "ok") return refused("damaged: " + one_line(verdict));
+    const Status sound = daemon::Database::check(path);
+    if (!sound && sound.error().reason == ErrorReason::DISK_FULL)
+      return tl::unexpected(sound.error());
+    if (!sound) return refused("damaged: its database is not sound");
+    HP_ASSIGN_OR_RETURN(const auto database, daemon::Database::open(path, ""));
     Contents contents;
     HP_ASSIGN_OR_RETURN(const auto files, named_files(*database));
     std::set<std::string> named{kDatabaseName};
@@ -203,9 +203,6 @@ Result<Contents> restore(const std::filesystem::path& root, const std::filesyste
   daemon::Layout layout;
   HP_ASSIGN_OR_RETURN(layout.root, state_root(root));
   std::error_code ignored;
-  if (std::filesystem::exists(layout.root, ignored)) {
-    HP_RETURN_IF_ERROR(check_is_mine(layout.root));
-  }
   HP_ASSIGN_OR_RETURN(const auto lock, daemon::lock_state(layout));
   const bool was_begun = std::filesystem::exists(layout.unrestored(), ignored);
   if (!replaces && !was_begun && !is_empty(layout)) {

@@ -83,17 +83,18 @@ class ArtifactService final : public v1::ArtifactService::Service {
       error.value().metadata["expected_offset"] = std::to_string(artifact.size_bytes);
       return error;
     }
+    // The whole file is checked before the first byte is sent, so that no client gets bytes of a
+    // damaged file, and so that a part is as good as the whole.
+    HP_RETURN_IF_ERROR(backend_.jobs.sound_artifact(name.first, name.second,
+                                                    [&] { return context.IsCancelled(); }));
     const auto path = backend_.layout.artifacts(name.first) / name.second;
-    const auto file = open_file(path, O_RDONLY);
-    struct stat info {};
-    if (!file || ::fstat(file->get(), &info) != 0 || info.st_size != artifact.size_bytes) {
-      return damaged(request.name());
-    }
-    return send(request, *file, artifact.size_bytes, writer);
+    HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_RDONLY));
+    return send(request, file, artifact.size_bytes, writer);
   }
 
   static tl::unexpected<Error> damaged(const std::string& name) {
-    return fail(Code::kDataLoss, name + ": the file is damaged; retry the job",
+    return fail(Code::kDataLoss,
+                name + ": the file became shorter or unreadable; download it again",
                 ErrorReason::ARTIFACT_DAMAGED);
   }
 

@@ -172,7 +172,7 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const Job job, get(name));
     HP_RETURN_IF_ERROR(check_may_see(caller, job));
-    HP_RETURN_IF_ERROR(backend_.jobs.artifact(job.id, kReport));
+    HP_RETURN_IF_ERROR(backend_.jobs.sound_artifact(job.id, kReport));
     auto report = read_report(backend_.layout.artifacts(job.id), job.definition.work.verb);
     if (report && report->report_case() == v1::JobReport::REPORT_NOT_SET)
       return fail(Code::kNotFound, name + " has no report", ErrorReason::ARTIFACT_NOT_FOUND);

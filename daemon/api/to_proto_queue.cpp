@@ -17,6 +17,7 @@ Result<v1::Queue> queue_message(const ServiceContext& backend) {
   queue.set_paused(pause.paused);
   queue.set_pause_reason(pause.reason);
   queue.set_blocked_reason(backend.pool.blocked_reason());
+  queue.set_confinement_warning(backend.pool.options().confinement_warning);
   for (const std::int64_t id : order) queue.add_queued_jobs(job_name(id));
   queue.set_queued_count(static_cast<std::int32_t>(queued.size()));
   HP_ASSIGN_OR_RETURN(const auto computing, backend.queue.computing());

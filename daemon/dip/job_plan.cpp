@@ -48,7 +48,7 @@ double film_area_mm2(const v1::FilmFacts& film, Checked& checked) {
 
 Result<SimulatedDip> simulated_dip(const std::string& name, JobStore& jobs, const Layout& layout) {
   HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "simulate", "dip.simulate_job", jobs));
-  HP_ASSIGN_OR_RETURN(const v1::JobReport report, report_of(job, layout));
+  HP_ASSIGN_OR_RETURN(const v1::JobReport report, report_of(job, jobs, layout));
   return read_simulated_dip(report.simulate());
 }
 

@@ -14,6 +14,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kDiskPatience{60'000};
+// The service reads the whole file to check it before it sends the first piece.
+constexpr milliseconds kCheckPatience{600'000};
 const std::string kGetArtifact = "/hydroprint.v1.ArtifactService/GetArtifact";
 const std::string kDownload = "/hydroprint.v1.ArtifactService/DownloadArtifact";
 
@@ -81,7 +83,7 @@ class Download {
     co_await written.wait(kDiskPatience);
 
     std::int64_t left = plan.range.end - plan.range.begin;
-    std::optional<std::string> piece = co_await next();
+    std::optional<std::string> piece = co_await next(kCheckPatience);
     if (!piece) {
       co_await refuse_all();
       co_return;
@@ -93,17 +95,17 @@ class Download {
       }
       left -= static_cast<std::int64_t>(piece->size());
       is_open = co_await exchange_.write(std::move(*piece));
-      if (is_open && left > 0) piece = co_await next();
+      if (is_open && left > 0) piece = co_await next(kDiskPatience);
     }
     if (left > 0) exchange_.break_off();
   }
 
  private:
   // Reads the next piece; nullopt if the call has ended or the store does not answer in time.
-  Task<std::optional<std::string>> next() {
+  Task<std::optional<std::string>> next(milliseconds patience) {
     AsyncValue<std::optional<std::string>> async_value(exchange_.shared_socket());
     stream_->read(async_value.receiver());
-    const bool in_time = co_await async_value.wait(kDiskPatience);
+    const bool in_time = co_await async_value.wait(patience);
     v1::DownloadArtifactResponse message;
     std::optional<std::string> bytes;
     if (in_time) bytes = async_value.take();

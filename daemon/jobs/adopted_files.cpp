@@ -25,6 +25,7 @@ Result<v1::InputFile> adopt_file(const std::filesystem::path& file, const Asset&
 
 Result<v1::InputFile> adopt_artifact(std::int64_t job, const Artifact& artifact,
                                      const std::string& name, const JobSources& sources) {
+  HP_RETURN_IF_ERROR(sources.jobs.sound_artifact(job, artifact.name));
   return adopt_file(sources.layout.artifacts(job) / artifact.name,
                     {artifact.sha256, artifact.size_bytes, artifact.media_type, 0}, name, sources);
 }

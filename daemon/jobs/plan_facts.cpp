@@ -2,7 +2,6 @@
 
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/referenced_job.h"
-#include "daemon/jobs/report.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/to_proto.h"
 
@@ -42,7 +41,8 @@ Status add_film(const v1::Job& job, const JobSources& sources, PlanFacts& facts)
   }
   if (job.state() != v1::Job::SUCCEEDED) return {};
   HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(job.name()));
-  const auto report = read_report(sources.layout.artifacts(id), "simulate");
+  HP_ASSIGN_OR_RETURN(const Job simulation, sources.jobs.get(id));
+  const auto report = report_of(simulation, sources.jobs, sources.layout);
   if (report) facts.warnings[job.name()] = plan_warnings(report->simulate());
   return {};
 }

@@ -46,8 +46,10 @@ Result<v1::PlanSpec> earlier_plan(const std::string& name, const std::string& fi
   return body.plan();
 }
 
-Result<v1::JobReport> report_of(const Job& job, const Layout& layout) {
-  auto report = read_report(layout.artifacts(job.id), job.definition.work.verb);
+Result<v1::JobReport> report_of(const Job& job, JobStore& jobs, const Layout& layout) {
+  auto report = jobs.sound_artifact(job.id, kReport).and_then([&](const Artifact&) {
+    return read_report(layout.artifacts(job.id), job.definition.work.verb);
+  });
   if (report) return report;
   return fail(Code::kFailedPrecondition,
               fmt::format("{} has no usable report ({}); retry that job", job_name(job.id),

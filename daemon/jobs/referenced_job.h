@@ -36,7 +36,7 @@ struct EarlierSimulation {
 
 /// Reads the report of a job that SUCCEEDED; see read_report().
 /// @return kFailedPrecondition, STATE_FORBIDS if it is not usable
-[[nodiscard]] Result<v1::JobReport> report_of(const Job& job, const Layout& layout);
+[[nodiscard]] Result<v1::JobReport> report_of(const Job& job, JobStore& jobs, const Layout& layout);
 
 /// Returns the warnings of a simulation about a dip that differs from its plan.
 [[nodiscard]] std::vector<v1::Warning> plan_warnings(const v1::SimulateReport& report);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ class UniqueFd {
 
   [[nodiscard]] int get() const { return fd_; }
   [[nodiscard]] bool valid() const { return fd_ >= 0; }
+  /// Gives the descriptor away.
+  [[nodiscard]] int release() { return std::exchange(fd_, -1); }
   void reset();
 
  private:
@@ -53,9 +56,23 @@ class UniqueFd {
 /// Creates a private folder (0700) and its missing parents, unless it exists.
 [[nodiscard]] Status make_folder(const std::filesystem::path& path);
 
-/// Deletes a file or a folder with its content, if it exists. Ignores errors: the next start
-/// deletes or sets aside files that remain.
+/// Calls `use` with the name of each entry of an open folder, until it returns an error.
+/// @param path  the folder's, for messages
+/// @return the error of `use`; errors of the folder
+[[nodiscard]] Status for_each_entry(const UniqueFd& folder, const std::filesystem::path& path,
+                                    const std::function<Status(const std::string& name)>& use);
+
+/// Deletes a file or a folder with its content, if it exists. Follows no link, needs few
+/// descriptors for folders of any depth, and makes folders writable that are not. Ignores errors:
+/// the next start deletes or sets aside files that remain.
 void discard(const std::filesystem::path& path);
+
+/// Reads the first `bytes` bytes of an open file in blocks of 1 MiB, until `use` returns an error.
+/// @param path  the file's, for messages
+/// @return the error of `use`; errors of the file
+[[nodiscard]] Status read_blocks(
+    const UniqueFd& file, const std::filesystem::path& path, std::int64_t bytes,
+    const std::function<Status(std::string_view block, std::int64_t offset)>& use);
 
 /// Copies the first `bytes` bytes of an open file to the new file `to`.
 /// @return kCancelled after a request to stop; the copy is then incomplete
@@ -69,7 +86,10 @@ void discard(const std::filesystem::path& path);
                                   const std::stop_token& stop = {});
 
 /// Returns the SHA-256 of a file's content, as 64 lower-case hex digits.
-[[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
+/// @param is_cancelled  asked after each block, if given
+/// @return kCancelled if it returned true; errors of the file
+[[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path,
+                                                 const std::function<bool()>& is_cancelled = {});
 
 /// Returns kResourceExhausted, DISK_FULL if the disk of `path` has less than `bytes` free.
 [[nodiscard]] Status check_free_space(const std::filesystem::path& path, std::int64_t bytes);

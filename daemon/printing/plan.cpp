@@ -46,7 +46,7 @@ Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs, const
   plan.print_image_job = job_name(job.id);
   plan.pdf = layout.artifacts(job.id) / kPdf;
   plan.sha256 = pdf->sha256;
-  HP_ASSIGN_OR_RETURN(const v1::JobReport report, report_of(job, layout));
+  HP_ASSIGN_OR_RETURN(const v1::JobReport report, report_of(job, jobs, layout));
   HP_RETURN_IF_ERROR(read_printed_pages(report.print_image(), plan));
   return plan;
 }

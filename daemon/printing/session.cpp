@@ -15,6 +15,7 @@
 #include "daemon/store/to_proto.h"
 #include "proto/write_json.h"
 #include "sim/base/input_file.h"
+#include "sim/base/sha256.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -70,6 +71,11 @@ Result<printer::Submitted> PrintSession::send() {
   publish("SENDING", kSending,
           fmt::format("sending {} to {}", facts_.plan.print_image_job, facts_.printer.name));
   HP_ASSIGN_OR_RETURN(const std::string pdf, read_text_file(facts_.plan.pdf, kLargestPdf));
+  if (sha256(pdf) != facts_.plan.sha256) {
+    return fail(Code::kDataLoss,
+                facts_.plan.print_image_job + ": its print.pdf is damaged; retry that job",
+                ErrorReason::ARTIFACT_DAMAGED);
+  }
   printer::PrintJob what;
   what.document = {reinterpret_cast<const unsigned char*>(pdf.data()), pdf.size()};
   what.name = "Hydroprint " + facts_.job;

@@ -35,4 +35,8 @@ using AssetOrUpload = std::variant<Asset, Upload>;
 /// Returns the error (kFailedPrecondition, ASSET_MISSING) for a missing input file.
 [[nodiscard]] tl::unexpected<Error> asset_missing(const InputFile& input);
 
+/// Returns the error (kDataLoss, ARTIFACT_DAMAGED) for an input file whose content has changed on
+/// disk.
+[[nodiscard]] tl::unexpected<Error> asset_damaged(const InputFile& input);
+
 }  // namespace hydroprint::daemon

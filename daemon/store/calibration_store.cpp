@@ -95,7 +95,8 @@ Result<std::optional<Calibration>> CalibrationStore::active(CalibrationKind kind
 }
 
 Result<std::vector<Calibration>> CalibrationStore::list(std::int64_t before_id, int limit) {
-  return select("WHERE ?1=0 OR c.id<?1 ORDER BY c.id DESC LIMIT ?2",
+  return select(std::string(before_id > 0 ? "WHERE c.id<?1" : "WHERE c.id>?1") +
+                    " ORDER BY c.id DESC LIMIT ?2",
                 {before_id, std::int64_t{limit}});
 }
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "daemon/platform/durable_file.h"
+#include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/asset.h"
 #include "daemon/store/calibration_store.h"
@@ -21,6 +23,28 @@ tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
                     ErrorReason::STATE_FORBIDS);
   error.value().metadata["state"] = name_of(job.state);
   return error;
+}
+
+// Returns SQL that selects the newest jobs in these states (of the owner ?1, if there is one) by an
+// index. A `+` keeps SQLite from using the other one: few jobs are open, but most of an owner's
+// jobs may be in one final state.
+std::string newest_in_states(const JobFilter& filter, const std::string& newest) {
+  std::vector<std::string> conditions, finished;
+  for (const JobState state : std::set(filter.states.begin(), filter.states.end())) {
+    if (is_finished(state) && !filter.owner.empty()) {
+      finished.push_back(fmt::to_string(number(state)));
+    } else {
+      conditions.push_back(
+          fmt::format("state={}{}", number(state), filter.owner.empty() ? "" : " AND +owner=?1"));
+    }
+  }
+  if (!finished.empty()) {
+    conditions.push_back(fmt::format("owner=?1 AND +state IN ({})", fmt::join(finished, ",")));
+  }
+  for (std::string& each : conditions) {
+    each = fmt::format("SELECT * FROM (SELECT id FROM jobs WHERE {} AND {})", each, newest);
+  }
+  return fmt::format("{}", fmt::join(conditions, " UNION ALL "));
 }
 
 }  // namespace
@@ -88,6 +112,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& definition) {
 
 Result<Job> JobStore::create(const NewJob& definition, const RequestKey& request) {
   std::int64_t id = 0, inserted = 0;
+  HP_RETURN_IF_ERROR(find_equal(definition));  // reads its files before the transaction
   const Status done = changes_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto earlier,
                         earlier_result(database_, definition.owner, request, changes_.now_ms()));
@@ -98,7 +123,7 @@ Result<Job> JobStore::create(const NewJob& definition, const RequestKey& request
     HP_ASSIGN_OR_RETURN(inserted, insert(definition));
     id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-    if (definition.traits.computed) HP_RETURN_IF_ERROR(adopt_cached(job));
+    HP_RETURN_IF_ERROR(adopt_cached(job));
     return remember_result(database_, definition.owner, request, std::to_string(id),
                            changes_.now_ms());
   });
@@ -115,32 +140,43 @@ Result<std::optional<Job>> JobStore::repeated(const std::string& owner, const Re
   return std::optional(std::move(job));
 }
 
-// Reuses the artifacts of a finished job with the same inputs, if there is one.
-Result<bool> JobStore::adopt_cached(const Job& job) {
-  if (!job.definition.use_cache) return false;
+// Finds a finished job with the same inputs whose artifacts can be reused. Reads their files, which
+// may take long the first time.
+Result<JobStore::EqualJob> JobStore::find_equal(const NewJob& definition) {
+  if (!definition.use_cache || !definition.traits.computed) return EqualJob{};
   HP_ASSIGN_OR_RETURN(
       const auto equal,
+      // Without the `+`, SQLite would use the index of states, which finds nearly all jobs.
       select_numbers(database_,
-                     "SELECT id FROM jobs WHERE digest=? AND state=? ORDER BY id DESC LIMIT 1",
-                     {job.definition.digest, number(JobState::kSucceeded)}));
-  if (equal.empty()) return false;
-  HP_ASSIGN_OR_RETURN(const auto files,
-                      select_artifacts(database_, "WHERE job=? ORDER BY name", {equal.front()}));
+                     "SELECT id FROM jobs WHERE digest=? AND +state=? ORDER BY id DESC LIMIT 1",
+                     {definition.digest, number(JobState::kSucceeded)}));
+  if (equal.empty()) return EqualJob{};
+  EqualJob found{equal.front(), {}};
+  HP_ASSIGN_OR_RETURN(found.files,
+                      select_artifacts(database_, "WHERE job=? ORDER BY name", {found.id}));
+  for (const Artifact& file : found.files) {
+    if (!check_file(found.id, file, {})) return EqualJob{};  // damaged: compute the job
+  }
+  return found;
+}
+
+// Reuses the artifacts of a finished job with the same inputs, if there is one.
+Result<bool> JobStore::adopt_cached(const Job& job) {
+  HP_ASSIGN_OR_RETURN(const EqualJob equal, find_equal(job.definition));
+  if (equal.id == 0) return false;
   const auto folder = layout_.artifacts(job.id);
   discard(folder);
   HP_RETURN_IF_ERROR(make_folder(folder));
-  for (const Artifact& file : files) {
-    const auto from = layout_.artifacts(equal.front()) / file.name;
-    if (link_or_copy(from, folder / file.name)) continue;
-    discard(folder);  // the earlier artifacts are damaged; compute the job
+  for (const Artifact& file : equal.files) {
+    if (link_or_copy(layout_.artifacts(equal.id) / file.name, folder / file.name)) continue;
+    discard(folder);
     return false;
   }
   HP_RETURN_IF_ERROR(sync_path(folder));
-  HP_RETURN_IF_ERROR(changes_.add_artifacts(job.id, files));
+  HP_RETURN_IF_ERROR(changes_.add_artifacts(job.id, equal.files));
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET cache_hit=1, fraction=1 WHERE id=?", {job.id}));
-  HP_RETURN_IF_ERROR(
-      changes_.finish(job.id, JobState::kSucceeded,
-                      "same inputs as " + job_name(equal.front()) + "; artifacts reused"));
+  HP_RETURN_IF_ERROR(changes_.finish(
+      job.id, JobState::kSucceeded, "same inputs as " + job_name(equal.id) + "; artifacts reused"));
   return true;
 }
 
@@ -168,11 +204,13 @@ Result<Job> JobStore::get(std::int64_t id) {
 }
 
 Result<std::vector<Job>> JobStore::list(const JobFilter& filter) {
-  std::vector<std::int64_t> states;
-  for (const JobState state : filter.states) states.push_back(number(state));
-  const std::string where =
-      fmt::format("WHERE (?1='' OR owner=?1) AND (?2=0 OR id<?2) {} ORDER BY id DESC LIMIT ?3",
-                  states.empty() ? "" : fmt::format("AND state IN ({})", fmt::join(states, ",")));
+  const std::string newest =
+      std::string(filter.before_id > 0 ? "id<?2" : "id>?2") + " ORDER BY id DESC LIMIT ?3";
+  std::string where = (filter.owner.empty() ? "WHERE " : "WHERE owner=?1 AND ") + newest;
+  if (!filter.states.empty()) {
+    where =
+        fmt::format("WHERE id IN ({}) ORDER BY id DESC LIMIT ?3", newest_in_states(filter, newest));
+  }
   return select_jobs(database_, where,
                      {filter.owner, filter.before_id, std::int64_t{filter.limit}});
 }
@@ -225,6 +263,8 @@ Result<Job> JobStore::cancel(std::int64_t id) {
 
 Result<Job> JobStore::start(std::int64_t id, const std::string& executor,
                             const std::filesystem::path& runs) {
+  HP_ASSIGN_OR_RETURN(const Job queued, get(id));
+  HP_RETURN_IF_ERROR(find_equal(queued.definition));  // reads its files before the transaction
   auto started = changes_.change(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
     HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
@@ -322,6 +362,31 @@ Result<Artifact> JobStore::artifact(std::int64_t id, const std::string& name) {
                 ErrorReason::ARTIFACT_NOT_FOUND);
   }
   return found.front();
+}
+
+Result<Artifact> JobStore::sound_artifact(std::int64_t id, const std::string& name,
+                                          const std::function<bool()>& is_cancelled) {
+  HP_ASSIGN_OR_RETURN(Artifact file, artifact(id, name));
+  HP_RETURN_IF_ERROR(check_file(id, file, is_cancelled));
+  return file;
+}
+
+Status JobStore::check_file(std::int64_t job, const Artifact& file,
+                            const std::function<bool()>& is_cancelled) {
+  const auto path = layout_.artifacts(job) / file.name;
+  const auto hash = hashes_.of(path, is_cancelled);
+  if (!hash && hash.error().code == Code::kCancelled) return tl::unexpected(hash.error());
+  std::error_code ignored;
+  const bool is_sound = hash == file.sha256 && std::filesystem::file_size(path, ignored) ==
+                                                   static_cast<std::uintmax_t>(file.size_bytes);
+  if (is_sound) return {};
+  log(LogLevel::kError, "artifact_damaged", {{"job", job}, {"file", file.name}});
+  return fail(
+      Code::kDataLoss,
+      fmt::format("{}/artifacts/{}: the file is damaged or missing; retry the job (hydroprint "
+                  "retry {}), or restore a backup",
+                  job_name(job), file.name, job),
+      ErrorReason::ARTIFACT_DAMAGED);
 }
 
 Status JobStore::check_was_given(std::int64_t seq) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/platform/file_hashes.h"
 #include "daemon/store/calibration.h"
 #include "daemon/store/interruption.h"
 #include "daemon/store/job.h"
@@ -110,6 +111,12 @@ class JobStore {
                                                         int limit);
   /// Returns one artifact; kNotFound, ARTIFACT_NOT_FOUND if the job has none with that name.
   [[nodiscard]] Result<Artifact> artifact(std::int64_t id, const std::string& name);
+  /// Returns one artifact if its file has the stored size and hash. Reads the whole file, unless it
+  /// was read since it last changed.
+  /// @param is_cancelled  ends the reading if it returns true
+  /// @return kDataLoss, ARTIFACT_DAMAGED; kCancelled; errors of artifact()
+  [[nodiscard]] Result<Artifact> sound_artifact(std::int64_t id, const std::string& name,
+                                                const std::function<bool()>& is_cancelled = {});
 
   /// Returns the events of one job after `seq`, oldest first; kOutOfRange, EVENTS_GONE if event
   /// `seq` never existed.
@@ -125,16 +132,26 @@ class JobStore {
   [[nodiscard]] Notifier& notifier() { return changes_.notifier(); }
 
  private:
+  /// A finished job with the same inputs, and its artifacts; id 0: there is none.
+  struct EqualJob {
+    std::int64_t id = 0;
+    std::vector<Artifact> files;
+  };
+
   [[nodiscard]] Result<std::int64_t> insert(const NewJob& definition);
   [[nodiscard]] Status check_was_given(std::int64_t seq);
   [[nodiscard]] Status check_queue();
+  [[nodiscard]] Result<EqualJob> find_equal(const NewJob& definition);
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
+  [[nodiscard]] Status check_file(std::int64_t job, const Artifact& file,
+                                  const std::function<bool()>& is_cancelled);
   void discard_unowned(std::int64_t id);
 
   JobChanges& changes_;
   Database& database_;
   Layout layout_;
   JobStoreOptions options_;
+  FileHashes hashes_;
 };
 
 }  // namespace hydroprint::daemon

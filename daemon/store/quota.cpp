@@ -39,13 +39,11 @@ tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usag
 Result<Usage> usage_of(Database& database, const std::string& owner) {
   Usage usage;
   HP_RETURN_IF_ERROR(database.each(
-      "SELECT (SELECT count(*) FROM jobs WHERE owner=?1 AND state=1), "
-      "(SELECT coalesce(sum(size),0) FROM artifacts WHERE job IN (SELECT id FROM jobs WHERE "
-      "owner=?1)) + "
+      "SELECT (SELECT count(*) FROM jobs WHERE +owner=?1 AND state=1), "
+      "coalesce((SELECT bytes FROM artifact_bytes WHERE owner=?1),0) + "
       "(SELECT coalesce(sum(size),0) FROM asset_owners JOIN assets USING(sha256) WHERE owner=?1) + "
       "(SELECT coalesce(sum(size),0) FROM uploads WHERE owner=?1), "
-      "(SELECT coalesce(sum(size),0) FROM artifacts WHERE job IN (SELECT id FROM jobs WHERE "
-      "owner=?1 AND pinned=1))",
+      "coalesce((SELECT pinned FROM artifact_bytes WHERE owner=?1),0)",
       {owner}, [&](const DbRow& row) {
         usage = {row.integer(0), row.integer(1), row.integer(2)};
       }));

@@ -32,8 +32,12 @@ std::filesystem::path unused_folder(const std::filesystem::path& parent, const s
 
 }  // namespace
 
+std::filesystem::path new_set_aside(const Layout& layout, std::int64_t now_ms) {
+  return unused_folder(layout.set_aside(), time_text(now_ms));
+}
+
 SetAside::SetAside(const Layout& layout, std::int64_t now_ms)
-    : layout_(layout), folder_(unused_folder(layout.set_aside(), time_text(now_ms))) {}
+    : layout_(layout), folder_(new_set_aside(layout, now_ms)) {}
 
 SetAside::~SetAside() {
   if (count_ == 0) return;

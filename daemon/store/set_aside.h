@@ -9,6 +9,9 @@
 
 namespace hydroprint::daemon {
 
+/// Returns the path of a folder `set-aside/TIME/` that does not exist yet.
+[[nodiscard]] std::filesystem::path new_set_aside(const Layout& layout, std::int64_t now_ms);
+
 /// Sets aside files that the database does not know. Most are left over from a crash, but if the
 /// database was lost or replaced by an older copy, they are users' results. They are therefore not
 /// deleted. The destructor logs how many files were moved, and where.

@@ -127,6 +127,7 @@ std::vector<std::string> command_of(const Launch& what) {
     out = {what.confine_program.string(), "--inputs=" + what.inputs.string(),
            "--work=" + what.work.string(), "--memory-mib=" + in_mib(what.limits.memory_bytes),
            "--file-mib=" + in_mib(what.limits.file_bytes)};
+    if (!what.limits.needs_landlock) out.emplace_back(kAllowWithoutLandlock);
     if (what.limits.cpu_s > 0) out.push_back(fmt::format("--cpu-s={}", what.limits.cpu_s));
     out.emplace_back("--");
   }
@@ -170,22 +171,25 @@ Result<ChildProcess> launch(const Launch& what) {
   return worker;
 }
 
-Status check_confinement(const std::filesystem::path& confine_program) {
+Result<std::string> check_confinement(const std::filesystem::path& confine_program,
+                                      bool needs_landlock) {
   constexpr std::chrono::seconds kPatience{30};
   if (std::error_code ignored; !std::filesystem::exists(confine_program, ignored)) {
     return fail(Code::kFailedPrecondition,
                 confine_program.string() +
                     ": this program does not exist; install it in the folder of hydroprintd");
   }
+  std::vector<std::string> arguments{"--check"};
+  if (!needs_landlock) arguments.emplace_back(kAllowWithoutLandlock);
   HP_ASSIGN_OR_RETURN(const ChildProcess check, launch({.program = confine_program,
-                                                        .arguments = {"--check"},
+                                                        .arguments = std::move(arguments),
                                                         .inputs = "/",
                                                         .confined = false}));
   const std::optional<int> ended = wait_for_end(check, kPatience);
   const int wait_status = ended ? *ended : kill_and_wait(check);
-  if (wait_status == 0) return {};
   std::string words;
   (void)drain(check.errors, words, 1 << 16);
+  if (wait_status == 0) return last_line(words);
   return fail(Code::kFailedPrecondition, fmt::format("{} --check: {}", confine_program.string(),
                                                      words.empty() ? "failed" : last_line(words)));
 }
@@ -229,6 +233,16 @@ std::int64_t resident_bytes(const ChildProcess& worker) {
   std::int64_t total = 0, resident = 0;
   file >> total >> resident;
   return file ? resident * ::sysconf(_SC_PAGESIZE) : 0;
+}
+
+std::optional<std::int64_t> written_bytes(const ChildProcess& worker) {
+  std::ifstream file(fmt::format("/proc/{}/io", worker.pid));
+  std::optional<std::int64_t> most;
+  std::string name;
+  // Calls count in wchar, mapped memory in write_bytes, which tmpfs does not have.
+  for (std::int64_t bytes = 0; file >> name >> bytes;)
+    if (name == "wchar:" || name == "write_bytes:") most = std::max(most.value_or(0), bytes);
+  return most;
 }
 
 }  // namespace hydroprint::daemon

@@ -28,11 +28,15 @@ struct Launch {
   std::vector<std::string> environment = {};   ///< more variables, "NAME=value"
   int threads = 1;                             ///< number of cores that the program uses
   std::string build_id = {};                   ///< of the program, see ProgramDigest
+  std::int64_t written_bytes = 0;              ///< most that it may write in all; 0: unlimited
   bool is_asked = false;                       ///< true: the program reads requests from stdin
   bool confined = true;  ///< false: only resource limits; for trusted programs that need a device
   /// Least nice value of the program: the rig and the daemon's responses have priority over it.
   int niceness = 10;
 };
+
+/// The flag of hydroprint-confine for confine::Limits::needs_landlock = false.
+inline constexpr const char* kAllowWithoutLandlock = "--allow-without-landlock";
 
 /// Returns the command that runs a program: its own, or that of hydroprint-confine.
 [[nodiscard]] std::vector<std::string> command_of(const Launch& what);
@@ -60,9 +64,13 @@ inline constexpr int kCameraNiceness = 5;
 /// be run exits at once with status 127 and a message at `errors`.
 [[nodiscard]] Result<ChildProcess> launch(const Launch& what);
 
-/// Returns kFailedPrecondition if programs cannot be confined, because the kernel does not allow it
-/// or `confine_program` cannot be run.
-[[nodiscard]] Status check_confinement(const std::filesystem::path& confine_program);
+/// Checks whether programs can be confined.
+/// @param needs_landlock  as in confine::Limits
+/// @return a warning, which says what workers can do without Landlock; empty if the kernel has it.
+///         kFailedPrecondition if the kernel does not allow the confinement or `confine_program`
+///         cannot be run.
+[[nodiscard]] Result<std::string> check_confinement(const std::filesystem::path& confine_program,
+                                                    bool needs_landlock);
 
 /// Sends a signal to the worker and all its children.
 void signal_group(const ChildProcess& worker, int signal);
@@ -82,5 +90,9 @@ int kill_and_wait(const ChildProcess& worker);
 
 /// Returns the resident memory of the worker in bytes; 0 if it has ended.
 [[nodiscard]] std::int64_t resident_bytes(const ChildProcess& worker);
+
+/// Returns the bytes that the worker has written to files and pipes, also through mapped memory,
+/// as far as /proc tells; nullopt if it does not.
+[[nodiscard]] std::optional<std::int64_t> written_bytes(const ChildProcess& worker);
 
 }  // namespace hydroprint::daemon

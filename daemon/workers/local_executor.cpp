@@ -23,6 +23,7 @@ Result<std::string> LocalExecutor::start(const Execution& execution, const Launc
   with_progress.arguments.push_back(fmt::format("--progress-fd={}", kProgressFd));
   HP_ASSIGN_OR_RETURN(worker.process, launch(with_progress));
   worker.memory_bytes = launch_plan.limits.memory_bytes;
+  worker.most_written_bytes = launch_plan.written_bytes;
   const std::string pid = std::to_string(worker.process.pid);
   workers_.insert_or_assign(execution.job, std::move(worker));
   return pid;
@@ -90,17 +91,34 @@ void LocalExecutor::watch_memory(Worker& worker) {
   signal_group(worker.process, SIGKILL);
 }
 
+// The system limits the size of one file only. While a worker ends, /proc does not tell what it has
+// written to a daemon that is not root.
+void LocalExecutor::watch_output(Worker& worker) {
+  if (worker.most_written_bytes == 0) return;
+  if (written_bytes(worker.process).value_or(0) <= worker.most_written_bytes) return;
+  worker.exceeded_output = true;
+  signal_group(worker.process, SIGKILL);
+}
+
 // Once the worker has ended, kills its children.
 Observation LocalExecutor::observe(Worker& worker) {
   read_words(worker);
   std::vector<std::string> progress = read_progress_lines(worker);
-  watch_memory(worker);
   const auto status = wait_for_end(worker.process);
-  if (!status) return WorkerRuns{std::move(progress)};
+  if (!status) {
+    watch_memory(worker);
+    watch_output(worker);
+    return WorkerRuns{std::move(progress)};
+  }
   signal_group(worker.process, SIGKILL);
   read_words(worker);
-  return WorkerEnds{*status, std::move(progress), std::move(worker.errors),
-                    std::move(worker.answer), worker.exceeded_memory};
+  return WorkerEnds{*status,
+                    std::move(progress),
+                    std::move(worker.errors),
+                    std::move(worker.answer),
+                    worker.exceeded_memory,
+                    false,
+                    worker.exceeded_output};
 }
 
 }  // namespace hydroprint::daemon

@@ -34,8 +34,9 @@ class LocalExecutor final : public WorkerExecutor {
  private:
   struct Worker {
     ChildProcess process;
-    std::int64_t memory_bytes = 0;  // limit; 0: none
-    bool exceeded_memory = false;
+    std::int64_t memory_bytes = 0;        // limit; 0: none
+    std::int64_t most_written_bytes = 0;  ///< 0: unlimited
+    bool exceeded_memory = false, exceeded_output = false;
     std::string errors, answer;  // last bytes of its stderr and stdout
     std::string progress;        // received bytes of an incomplete line
   };
@@ -43,6 +44,7 @@ class LocalExecutor final : public WorkerExecutor {
   static void read_words(Worker& worker);
   static std::vector<std::string> read_progress_lines(Worker& worker);
   static void watch_memory(Worker& worker);
+  static void watch_output(Worker& worker);
   static Observation observe(Worker& worker);
 
   int capacity_;

@@ -30,6 +30,7 @@ struct WorkerEnds {
   std::string answer = {};                 ///< last bytes of its stdout
   bool exceeded_memory = false;            ///< ended because of its memory limit
   bool exceeded_time = false;              ///< ended by the executor because of its time limit
+  bool exceeded_output = false;            ///< ended because it wrote too much
 };
 
 /// The executor is sure that the execution does not exist: it was never started, or has ended

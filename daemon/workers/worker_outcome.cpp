@@ -165,6 +165,8 @@ std::optional<JobFailure> judge(int wait_status, StopReason stopped, std::string
   JobFailure out;
   if (stopped == StopReason::kTime) {
     out = time_failure();
+  } else if (stopped == StopReason::kOutput) {
+    out = output_failure();
   } else if (stopped == StopReason::kMemory) {
     out = memory_failure();
   } else if (WIFEXITED(wait_status)) {

@@ -11,7 +11,7 @@
 namespace hydroprint::daemon {
 
 /// Why the pool stopped a worker, if it did.
-enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory };
+enum class StopReason { kNothing, kCancel, kShutdown, kTime, kMemory, kOutput };
 
 /// Returns the last non-empty line of a worker's stderr, made safe for one line of text.
 [[nodiscard]] std::string last_line(std::string_view errors);

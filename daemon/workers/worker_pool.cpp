@@ -26,7 +26,7 @@ struct WorkerPool::Impl {
   Impl(const PoolOptions& o, WorkerExecutor& e, JobStore& s, JobQueue& q, const Layout& l, Clock c,
        std::chrono::milliseconds silence)
       : options(o),
-        limits{std::chrono::seconds(o.time_limit_s), silence},
+        limits{std::chrono::seconds(o.time_limit_s), silence, output_limits(o)},
         executor(e),
         store(s),
         queue(q),
@@ -132,6 +132,8 @@ void WorkerPool::wake() {
 }
 
 int WorkerPool::slots() const { return impl_->executor.capacity(); }
+
+const PoolOptions& WorkerPool::options() const { return impl_->options; }
 
 std::string WorkerPool::blocked_reason() const {
   const std::lock_guard lock(impl_->turns_mutex);

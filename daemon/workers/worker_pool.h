@@ -47,6 +47,7 @@ class WorkerPool final : public JobExecutor {
   [[nodiscard]] int slots() const;
   /// Returns why the executor takes no jobs now (WorkerExecutor::ready()); empty if it takes them.
   [[nodiscard]] std::string blocked_reason() const;
+  [[nodiscard]] const PoolOptions& options() const;
 
  private:
   WorkerPool();

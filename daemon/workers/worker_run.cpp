@@ -74,7 +74,7 @@ std::unique_ptr<WorkerRun> WorkerRun::resume(const Job& job, const Execution& ex
 }
 
 WorkerRun::~WorkerRun() {
-  copy_stop_.request_stop();
+  files_stop_.request_stop();
   if (copying_.valid()) copying_.wait();
   if (publishing_.valid()) publishing_.wait();
   if (is_over_) discard(folder_.root);
@@ -116,7 +116,7 @@ void WorkerRun::watch(const std::optional<Observation>& seen, JobStore& store,
 void WorkerRun::begin_copying() {
   phase_ = Phase::kCopying;
   progress_ = waiting_progress("its files are copied");
-  copying_ = std::async(std::launch::async, [this, stop = copy_stop_.get_token()] {
+  copying_ = std::async(std::launch::async, [this, stop = files_stop_.get_token()] {
     Status copied =
         lay_out_inputs(context_.layout, job_.definition.work.inputs, launch_.inputs, stop);
     context_.wake();
@@ -127,7 +127,7 @@ void WorkerRun::begin_copying() {
 // Starts the worker when its inputs are there.
 void WorkerRun::await_inputs() {
   if (stopped_ != StopReason::kNothing) {
-    copy_stop_.request_stop();
+    files_stop_.request_stop();
     return take_end({.wait_status = SIGKILL});
   }
   last_answer_ = SteadyClock::now();  // the executor was not asked anything
@@ -165,7 +165,8 @@ void WorkerRun::stop(StopReason why) {
     return;
   }
   stopped_ = why;
-  if (is_unended()) ask_for_end();
+  if (is_unended()) return ask_for_end();
+  files_stop_.request_stop();
 }
 
 void WorkerRun::offer_again() {
@@ -209,10 +210,13 @@ void WorkerRun::take_end(const WorkerEnds& end) {
   phase_ = Phase::kEnded;
   end_ = end;
   // A worker that ended in time, while an engine did not answer, has succeeded.
-  if (stopped_ == StopReason::kTime && end.wait_status == 0) stopped_ = StopReason::kNothing;
+  const bool has_succeeded = end.wait_status == 0;
+  if (stopped_ == StopReason::kTime && has_succeeded) stopped_ = StopReason::kNothing;
   if (stopped_ != StopReason::kNothing) return;
-  if (end.exceeded_memory || end.exceeded_time) {
-    stopped_ = end.exceeded_memory ? StopReason::kMemory : StopReason::kTime;
+  if (!has_succeeded && (end.exceeded_memory || end.exceeded_time || end.exceeded_output)) {
+    stopped_ = end.exceeded_memory   ? StopReason::kMemory
+               : end.exceeded_output ? StopReason::kOutput
+                                     : StopReason::kTime;
   } else if (!judge(end.wait_status, stopped_, end.errors, end.answer)) {
     begin_publishing();
   }
@@ -252,28 +256,23 @@ void WorkerRun::ask_for_end() {
   next_cancel_ = *kill_at_;
 }
 
-// Returns the folder of the worker's output on the disk of the state folder: the output, or a copy,
-// which nothing that the worker left behind on a node can change any more.
-Result<std::filesystem::path> WorkerRun::own_output() const {
-  auto copy = output_copy();
-  if (copy != folder_.out()) HP_RETURN_IF_ERROR(copy_output(folder_.out(), copy));
-  return copy;
-}
-
+// Returns the folder for a copy of the output on the disk of the state folder, which nothing that
+// the worker left behind on a node can change any more; empty if the output itself is there.
 std::filesystem::path WorkerRun::output_copy() const {
-  if (is_on_state_disk()) return folder_.out();
+  if (is_on_state_disk()) return {};
   return context_.layout.runs() / (folder_.root.filename().string() + ".output");
 }
 
-Result<WorkerRun::Outcome> WorkerRun::publish() const {
+Result<WorkerRun::Outcome> WorkerRun::publish(const PublishOptions& options) const {
   Outcome out;
   const auto artifacts = context_.layout.artifacts(job_.id);
   // An earlier daemon may have been killed after it published them, before it stored the job's end.
-  if (!std::filesystem::exists(folder_.out()) && std::filesystem::exists(artifacts)) {
+  std::error_code ignored;
+  const auto output = std::filesystem::symlink_status(folder_.out(), ignored);
+  if (!std::filesystem::exists(output) && std::filesystem::exists(artifacts, ignored)) {
     HP_RETURN_IF_ERROR(hydroprint::daemon::publish(artifacts, folder_.out()));
   }
-  HP_ASSIGN_OR_RETURN(const auto output, own_output());
-  HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(output, artifacts));
+  HP_ASSIGN_OR_RETURN(out.artifacts, publish_artifacts(folder_.out(), artifacts, options));
   HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(job_));
   const auto report = read_report(artifacts, kind->name());
   if (!report) return unusable_report(report.error());
@@ -284,8 +283,11 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
 // Publishes in a separate thread, because other jobs need the pool's thread while large files are
 // hashed and synced.
 void WorkerRun::begin_publishing() {
-  publishing_ = std::async(std::launch::async, [this] {
-    auto result = publish();
+  const OutputLimits& limits = context_.limits.output;
+  PublishOptions options{folder_.root.parent_path(), output_copy(), limits,
+                         SteadyClock::now() + publishing_time(limits), files_stop_.get_token()};
+  publishing_ = std::async(std::launch::async, [this, options = std::move(options)] {
+    auto result = publish(options);
     context_.wake();
     return result;
   });
@@ -322,7 +324,7 @@ void WorkerRun::free_disk_for(const Error& error) {
 void WorkerRun::discard_output() const {
   discard(folder_.root);
   discard(context_.layout.artifacts(job_.id));
-  if (const auto copy = output_copy(); copy != folder_.out()) discard(copy);
+  if (const auto copy = output_copy(); !copy.empty()) discard(copy);
 }
 
 Result<Job> WorkerRun::store_end(JobStore& store) const {

@@ -25,6 +25,7 @@ inline constexpr std::chrono::seconds kMostSilence{3600};
 struct RunLimits {
   std::chrono::seconds time;  ///< from its first sign of life; after an adoption, from the adoption
   std::chrono::milliseconds silence = kMostSilence;
+  OutputLimits output = {};  ///< of its artifacts, and for publishing_time()
 };
 
 /// What a WorkerRun needs; must outlive it.
@@ -69,7 +70,8 @@ class WorkerRun {
   /// for shutdown. A failed write is retried.
   [[nodiscard]] bool step(const std::optional<Observation>& seen, JobStore& store,
                           std::int64_t now_ms);
-  /// Requests the worker to end; it is killed 3 s after the executor accepted the request.
+  /// Requests the worker to end; it is killed 3 s after the executor accepted the request. Once it
+  /// has ended, requests the end of publishing.
   void stop(StopReason why);
 
  private:
@@ -100,8 +102,7 @@ class WorkerRun {
   void watch_limits();
   void ask_for_end();
   [[nodiscard]] std::filesystem::path output_copy() const;
-  [[nodiscard]] Result<std::filesystem::path> own_output() const;
-  [[nodiscard]] Result<Outcome> publish() const;
+  [[nodiscard]] Result<Outcome> publish(const PublishOptions& options) const;
   void begin_publishing();
   bool finish(JobStore& store);
   [[nodiscard]] Result<Job> store_end(JobStore& store) const;
@@ -114,7 +115,7 @@ class WorkerRun {
   RunContext context_;
   RunFolder folder_;
   Launch launch_;
-  std::stop_source copy_stop_;
+  std::stop_source files_stop_;  // ends copying_ and publishing_
   std::future<Status> copying_;  // in Phase::kCopying
   Phase phase_ = Phase::kOpen;
   bool is_noted_ = true;  // the store knows the handle

@@ -318,6 +318,75 @@ TEST_F(AdminCli, ACheckNamesEachFaultWithItsRemedy) {
   EXPECT_FALSE(std::filesystem::exists(elsewhere()));
 }
 
+TEST_F(AdminCli, ACheckNamesDamagedFilesBesideTheDaemon) {
+  simulate("mesh");
+  simulate("other");
+  const auto artifacts = daemon_.state() / "artifacts";
+  const auto check = [&] { return admin({"check", "--config", daemon_.config()}); };
+  const std::string sound = check().out;
+  EXPECT_NE(sound.find("ok    database: "), std::string::npos) << sound;
+  EXPECT_NE(sound.find("ok    files: "), std::string::npos) << sound;
+  std::string film = content(artifacts / "1" / "film.png");
+  film.back() = static_cast<char>(film.back() ^ 1);
+  std::ofstream(artifacts / "1" / "film.png", std::ios::binary) << film;
+  std::filesystem::remove(artifacts / "2" / "film.png");
+  ASSERT_EQ(::chmod(daemon_.state().c_str(), 0755), 0);
+  const Outcome ended = check();
+  EXPECT_EQ(ended.status, 4) << ended.out;
+  for (const std::string& line :
+       {"FAULT state folder: " + daemon_.state().string() + ": other users of this machine",
+        std::string("FAULT file: artifacts/1/film.png: its content has changed; retry the job"),
+        std::string("FAULT file: artifacts/2/film.png: missing; retry the job")}) {
+    EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
+  }
+}
+
+TEST_F(AdminCli, ADaemonCorrectsTheModeOfItsFolderWithAWarning) {
+  daemon_.terminate();
+  ASSERT_EQ(::chmod(daemon_.state().c_str(), 0755), 0);
+  daemon_.start();
+  struct stat info {};
+  ASSERT_EQ(::stat(daemon_.state().c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0700U);
+  EXPECT_NE(daemon_.log().find("event=mode_corrected path=" + daemon_.state().string() +
+                               " before=0755 now=0700"),
+            std::string::npos)
+      << daemon_.log();
+}
+
+TEST_F(AdminCli, ADamagedDatabaseIsRefusedUntilItIsSetAside) {
+  simulate("mesh");
+  const auto database = daemon_.state() / "hydroprint.db";
+  const Outcome running = admin({"set-aside"});
+  EXPECT_EQ(running.status, 3);
+  EXPECT_NE(running.err.find("uses this state folder"), std::string::npos) << running.err;
+  daemon_.terminate();
+  EXPECT_NE(admin({"set-aside"}).err.find("not damaged"), std::string::npos);
+  std::string bytes = content(database);
+  constexpr std::size_t kPage = 4096;  // the third page is the root of a table
+  bytes.replace(2 * kPage, kPage, std::string(kPage, 'x'));
+  std::ofstream(database, std::ios::binary) << bytes;
+
+  const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
+  EXPECT_EQ(refused.status, 4);
+  for (const std::string& part :
+       {database.string() + ": the job database is damaged", std::string("admin set-aside")}) {
+    EXPECT_NE(refused.words.find(part), std::string::npos) << refused.words;
+  }
+  const Outcome checked = admin({"check", "--config", daemon_.config()});
+  EXPECT_EQ(checked.status, 4);
+  EXPECT_NE(checked.out.find("FAULT database: "), std::string::npos) << checked.out;
+  EXPECT_EQ(content(database), bytes);
+
+  const Outcome aside = admin({"set-aside"});
+  EXPECT_EQ(aside.status, 0) << aside.err;
+  EXPECT_NE(aside.out.find((daemon_.state() / "set-aside").string()), std::string::npos)
+      << aside.out;
+  EXPECT_FALSE(std::filesystem::exists(database));
+  daemon_.start();
+  EXPECT_NE(daemon_.log().find("files_set_aside"), std::string::npos) << "those of the old jobs";
+}
+
 TEST(Archive, NamesAndContentsAreRestored) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.tar";
@@ -439,6 +508,10 @@ TEST_F(AdminCli, AnotherUsersFolderIsRefused) {
     EXPECT_EQ(refused.status, 3) << arguments.front();
     EXPECT_NE(refused.err.find("sudo -u nobody"), std::string::npos) << refused.err;
   }
+  const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
+  EXPECT_EQ(refused.status, 4);
+  EXPECT_NE(refused.words.find(daemon_.state().string() + ": belongs to nobody"), std::string::npos)
+      << refused.words;
 }
 
 // A store of a former build, with changes in its log.

@@ -144,10 +144,18 @@ void add_admin(CLI::App& app, Program& program) {
   to_link->add_option("user", options->user, "User name")->type_name("NAME")->required();
   program.on(*to_link, [options] { return link(*options); });
 
-  CLI::App* to_check = add_verb(
-      *admin, "check",
-      "Check whether the daemon can run workers, on a cluster too; the daemon may be running",
+  CLI::App* to_set_aside = add_verb(
+      *admin, "set-aside",
+      "Set a damaged database aside; the daemon, which must be stopped, then starts with an "
+      "empty one",
       *options);
+  program.on(*to_set_aside, [options] { return become(arguments_of("set-aside", *options)); });
+
+  CLI::App* to_check = add_verb(*admin, "check",
+                                "Check whether the daemon can run workers, on a cluster too, and "
+                                "whether its database or files "
+                                "are damaged; the daemon may be running",
+                                *options);
   to_check
       ->add_option("--config", options->config_file,
                    "The daemon's configuration; default: /etc/hydroprint/hydroprintd.toml, or "

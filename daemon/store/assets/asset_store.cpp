@@ -44,16 +44,23 @@ Result<Asset> AssetStore::asset_for(const std::string& sha256, const AssetUser& 
   return asset;
 }
 
+bool AssetStore::is_sound(const Asset& asset) {
+  return has_file(layout_, asset) && hashes_.of(layout_.asset(asset.sha256)) == asset.sha256;
+}
+
 Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit,
                                             const std::string& owner) {
   std::vector<Asset> assets;
-  HP_RETURN_IF_ERROR(database_.each(
-      "SELECT sha256, size, media_type, create_ms FROM assets WHERE sha256>?1 AND (?2='' OR EXISTS "
-      "(SELECT 1 FROM asset_owners WHERE owner=?2 AND sha256=assets.sha256)) ORDER BY sha256 "
-      "LIMIT ?3",
-      {after, owner, std::int64_t{limit}}, [&](const DbRow& row) {
-        assets.push_back({row.text(0), row.integer(1), row.text(2), row.integer(3)});
-      }));
+  const std::string selected = owner.empty()
+                                   ? "assets WHERE sha256>?1"
+                                   : "asset_owners AS o JOIN assets USING(sha256) WHERE o.owner=?2 "
+                                     "AND o.sha256>?1";
+  HP_RETURN_IF_ERROR(
+      database_.each("SELECT sha256, size, media_type, assets.create_ms FROM " + selected +
+                         " ORDER BY sha256 LIMIT ?3",
+                     {after, owner, std::int64_t{limit}}, [&](const DbRow& row) {
+                       assets.push_back({row.text(0), row.integer(1), row.text(2), row.integer(3)});
+                     }));
   for (Asset& asset : assets) {
     HP_ASSIGN_OR_RETURN(asset.owners, owners_of(database_, asset.sha256));
   }
@@ -92,10 +99,11 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
 Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& as) {
   const auto final_path = layout_.asset(as.sha256);
   HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
+  (void)is_sound(as);  // reads the file before the transaction
   const Status done = database_.transaction([&]() -> Status {
     const auto known = select_asset(database_, as.sha256);
-    if (known && has_file(layout_, *known)) return insert_asset(database_, as, clock_());
-    discard(final_path);  // left by a crash, perhaps incomplete
+    if (known && is_sound(*known)) return insert_asset(database_, as, clock_());
+    discard(final_path);  // damaged, or left by a crash
     HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
     ::chmod(final_path.c_str(), 0400);
     HP_RETURN_IF_ERROR(sync_path(final_path));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "daemon/platform/clock.h"
+#include "daemon/platform/file_hashes.h"
 #include "daemon/store/asset.h"
 #include "daemon/store/assets/asset_owners.h"
 #include "daemon/store/database/database.h"
@@ -21,9 +22,12 @@ class AssetStore {
   /// Returns an asset. Operators see all its owners, other users only themselves. Errors:
   /// ASSET_NOT_FOUND, also if the user may not use the asset.
   [[nodiscard]] Result<Asset> asset_for(const std::string& sha256, const AssetUser& user);
+  /// Returns whether the asset's file has its content. Reads the whole file, unless it was read
+  /// since it last changed, so call this before a transaction that calls it too.
+  [[nodiscard]] bool is_sound(const Asset& asset);
   /// Adds a complete, synced file with the hash `as.sha256` as an asset without an owner, unless
-  /// the asset exists. The file itself remains; it may become read-only, because the asset may be a
-  /// hard link to it.
+  /// the asset exists and is_sound(). The file itself remains; it may become read-only, because the
+  /// asset may be a hard link to it.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
   /// Returns the assets with hashes after `after`, sorted by hash, with their owners. Lists those
@@ -41,6 +45,7 @@ class AssetStore {
   Database& database_;
   Layout layout_;
   Clock clock_;
+  FileHashes hashes_;
 };
 
 }  // namespace hydroprint::daemon

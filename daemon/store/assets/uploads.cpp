@@ -38,12 +38,15 @@ Result<AssetOrUpload> Uploads::start(const Upload& wanted, const AssetUser& user
   if (wanted.size_bytes > options_.max_bytes) {
     return asset_too_large(Code::kResourceExhausted, options_.max_bytes);
   }
+  if (const auto known = assets_.asset_for(wanted.sha256, user)) {
+    (void)assets_.is_sound(*known);  // reads the file before the transaction
+  }
   std::string id;
   const Status done = database_.transaction([&]() -> Status {
     const std::int64_t now = clock_();
     HP_ASSIGN_OR_RETURN(const auto earlier, earlier_result(database_, user.name, request, now));
     const auto known = assets_.asset_for(wanted.sha256, user);
-    if (known && has_file(layout_, *known)) return take(*known, user.name);
+    if (known && assets_.is_sound(*known)) return take(*known, user.name);
     if (earlier && get(*earlier, user.name)) {
       id = *earlier;
       return {};

@@ -28,9 +28,9 @@ class Uploads {
   Uploads(Database& database, AssetStore& assets, const Layout& layout,
           const UploadOptions& options, Clock clock);
 
-  /// Returns the asset if its bytes are stored and the user may use them, and makes the user an
-  /// owner. Otherwise starts an upload, or returns the one that an earlier request with the same id
-  /// started.
+  /// Returns the asset if its bytes are stored, not damaged, and the user may use them, and makes
+  /// the user an owner. Otherwise starts an upload, or returns the one that an earlier request with
+  /// the same id started.
   /// @return kResourceExhausted: ASSET_TOO_LARGE, DISK_FULL, UPLOADS_FULL, QUOTA_EXCEEDED;
   /// kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const AssetUser& user,

@@ -9,6 +9,8 @@
 namespace hydroprint::daemon {
 namespace {
 
+constexpr int kPatience_ms = 5000;  // for other processes that use the file
+
 struct CloseStatement {
   void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 };
@@ -24,7 +26,18 @@ bool disk_is_full(sqlite3* db) {
                                  (error == ENOSPC || error == EDQUOT));
 }
 
+tl::unexpected<Error> damaged(const std::string& what) {
+  return fail(Code::kInternal,
+              "the job database is damaged (" + what +
+                  "); stop the daemon, then restore a backup (hydroprint admin restore --replace "
+                  "FILE), or set the database aside and start with an empty one (hydroprint admin "
+                  "set-aside)",
+              ErrorReason::STORE_FAILED);
+}
+
 tl::unexpected<Error> database_failure(sqlite3* db) {
+  const int code = sqlite3_errcode(db);
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return damaged(sqlite3_errmsg(db));
   if (disk_is_full(db)) {
     return fail(Code::kResourceExhausted,
                 "the daemon's disk is full; delete jobs or assets, or free disk space",
@@ -34,6 +47,12 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
               std::string("the job database cannot be used: ") + sqlite3_errmsg(db) +
                   "; check the state folder's disk and permissions",
               ErrorReason::STORE_FAILED);
+}
+
+// Returns a failure of the file at `path`.
+tl::unexpected<Error> failure_of(const std::filesystem::path& path, tl::unexpected<Error> failure) {
+  failure.value().message = path.string() + ": " + failure.value().message;
+  return failure;
 }
 
 // Copies the write-ahead log to the database, so that the log starts again and does not need to
@@ -104,18 +123,38 @@ Result<std::unique_ptr<Database>> Database::open(const std::filesystem::path& pa
   sqlite3*& db = database->impl_->db;
   const std::string setup =
       "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; "
-      "PRAGMA busy_timeout=5000; BEGIN IMMEDIATE; " +
+      "PRAGMA temp_store=MEMORY; BEGIN IMMEDIATE; " +
       std::string(schema) + " COMMIT;";
   if (sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr) !=
           SQLITE_OK ||
+      sqlite3_busy_timeout(db, kPatience_ms) != SQLITE_OK ||
       sqlite3_exec(db, setup.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
-    auto failure = database_failure(db);
-    failure.value().message = path.string() + ": " + failure.value().message;
-    return failure;
+    return failure_of(path, database_failure(db));
   }
   keep_room(db);
   empty_log(db);
   return database;
+}
+
+Result<std::unique_ptr<Database>> Database::open_to_read(const std::filesystem::path& path) {
+  std::unique_ptr<Database> database(new Database);
+  sqlite3*& db = database->impl_->db;
+  if (sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READONLY, nullptr) != SQLITE_OK ||
+      sqlite3_busy_timeout(db, kPatience_ms) != SQLITE_OK) {
+    return failure_of(path, database_failure(db));
+  }
+  return database;
+}
+
+Status Database::check(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(const auto database, open_to_read(path));
+  std::string verdict;
+  const Status read =
+      database->each("PRAGMA quick_check(1)", {}, [&](const DbRow& row) { verdict = row.text(0); });
+  if (!read) return failure_of(path, tl::unexpected(read.error()));
+  if (verdict == "ok") return {};
+  // The first line only says "in database main".
+  return failure_of(path, damaged(verdict.substr(verdict.find('\n') + 1)));
 }
 
 Status Database::each(const std::string& sql, std::initializer_list<DbValue> values,
@@ -149,6 +188,14 @@ Status Database::transaction(const std::function<Status()>& body) {
 
 std::int64_t Database::last_id() const { return sqlite3_last_insert_rowid(impl_->db); }
 std::int64_t Database::changes() const { return sqlite3_changes64(impl_->db); }
+
+std::vector<std::string> Database::statements() const {
+  const std::lock_guard lock(impl_->mutex);
+  std::vector<std::string> all;
+  all.reserve(impl_->statements.size());
+  for (const auto& [sql, statement] : impl_->statements) all.push_back(sql);
+  return all;
+}
 
 std::int64_t DbRow::integer(int column) const {
   return sqlite3_column_int64(as_statement(statement_), column);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "sim/base/result.h"
 
@@ -37,6 +38,15 @@ class Database {
   /// @return kInternal, STORE_FAILED if the file is not a database or cannot be used
   [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::filesystem::path& path,
                                                               const char* schema);
+  /// Opens a file, which other connections may be using, to read it. Changes nothing, but empty
+  /// files of SQLite may remain beside it.
+  /// @return as open()
+  [[nodiscard]] static Result<std::unique_ptr<Database>> open_to_read(
+      const std::filesystem::path& path);
+  /// Opens a file in the same way, reads all of it, and checks its structure with SQLite's
+  /// quick_check.
+  /// @return kInternal, STORE_FAILED if it is damaged or cannot be read
+  [[nodiscard]] static Status check(const std::filesystem::path& path);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
@@ -57,6 +67,8 @@ class Database {
   /// Returns the number of rows that the last statement changed. Call this only within a
   /// transaction.
   [[nodiscard]] std::int64_t changes() const;
+  /// Returns the SQL of all statements that have run, for tests of their plans.
+  [[nodiscard]] std::vector<std::string> statements() const;
 
  private:
   Database();

@@ -11,6 +11,8 @@ namespace {
 
 using namespace std::string_literals;
 
+constexpr std::uintmax_t kLargeDatabase = 256 << 20;
+
 /// The store's tables. If they change, raise user_version here and in check_build(), which reads it
 /// and application_id from the header of the file. `jobs.body`, `dips.status` and
 /// `calibrations.body` are serialised messages. `jobs.attempts` is the number of times that the job
@@ -111,6 +113,30 @@ CREATE TABLE audit(
 CREATE INDEX audit_by_time ON audit(time_ms);
 )sql";
 
+/// The bytes of all artifacts of each owner, and of those of pinned jobs: each new job is checked
+/// against a quota of them, and to add them up takes long for an owner with many jobs. The table is
+/// only in the memory of this connection. Deleting a job also deletes its artifacts, and no
+/// statement deletes artifacts alone.
+constexpr const char* kUsage = R"sql(
+CREATE TEMP TABLE artifact_bytes(
+  owner TEXT PRIMARY KEY, bytes INTEGER NOT NULL, pinned INTEGER NOT NULL) WITHOUT ROWID;
+INSERT INTO artifact_bytes SELECT owner, sum(size), sum(size*pinned) FROM jobs JOIN artifacts
+  ON artifacts.job=jobs.id GROUP BY owner;
+CREATE TEMP TRIGGER artifact_added AFTER INSERT ON main.artifacts BEGIN
+  INSERT INTO artifact_bytes SELECT owner, new.size, new.size*pinned FROM jobs WHERE id=new.job
+    ON CONFLICT(owner) DO UPDATE SET bytes=bytes+excluded.bytes, pinned=pinned+excluded.pinned;
+END;
+CREATE TEMP TRIGGER job_pinned AFTER UPDATE OF pinned ON main.jobs BEGIN
+  UPDATE artifact_bytes SET pinned=pinned+(new.pinned-old.pinned)*
+    (SELECT coalesce(sum(size),0) FROM artifacts WHERE job=new.id) WHERE owner=new.owner;
+END;
+CREATE TEMP TRIGGER job_deleted BEFORE DELETE ON main.jobs BEGIN
+  UPDATE artifact_bytes SET (bytes, pinned)=
+    (SELECT bytes-coalesce(sum(size),0), pinned-old.pinned*coalesce(sum(size),0) FROM artifacts
+     WHERE job=old.id) WHERE owner=old.owner;
+END;
+)sql";
+
 /// Creates a complete store, or nothing. SQLite would apply the log of a lost database to it.
 Status create(const std::filesystem::path& path) {
   const std::string part = path.string() + ".part";
@@ -118,6 +144,15 @@ Status create(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const auto memory, Database::open(":memory:", kSchema));
   HP_RETURN_IF_ERROR(memory->run("VACUUM INTO ?", {part}));
   return publish(part, path);
+}
+
+/// Returns whether a database is checked when it is opened: always, or if it is large, only if the
+/// last daemon was killed. SQLite deletes the log when the last connection is closed.
+bool needs_check(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto log_bytes = std::filesystem::file_size(path.string() + "-wal", ignored);
+  const bool was_killed = !ignored && log_bytes > 0;
+  return was_killed || std::filesystem::file_size(path, ignored) < kLargeDatabase;
 }
 
 }  // namespace
@@ -129,18 +164,24 @@ Status check_build(const std::filesystem::path& path) {
   file.read(header.data(), 72);
   // Offsets from https://www.sqlite.org/fileformat.html; the numbers are big-endian.
   if (header.substr(60, 4) == "\0\0\0\1"s && header.substr(68) == "HyPr") return {};
-  return fail(Code::kFailedPrecondition,
-              fmt::format("{}: was made by another build of hydroprint; use that build, or set the "
-                          "state folder aside (rename {}) and start with an empty one",
-                          path.string(), path.parent_path().string()),
-              ErrorReason::STORE_DIFFERS);
+  return fail(
+      Code::kFailedPrecondition,
+      fmt::format("{}: was made by another build of hydroprint, or its beginning is damaged; "
+                  "use that build, or set the state folder aside (rename {}) and start with "
+                  "an empty one; hydroprint admin set-aside sets only the database aside",
+                  path.string(), path.parent_path().string()),
+      ErrorReason::STORE_DIFFERS);
 }
 
 Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {
   HP_RETURN_IF_ERROR(check_build(path));
   std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) HP_RETURN_IF_ERROR(create(path));
-  return Database::open(path, "");
+  if (!std::filesystem::exists(path, error) && !error) {
+    HP_RETURN_IF_ERROR(create(path));
+  } else if (needs_check(path)) {
+    HP_RETURN_IF_ERROR(Database::check(path));
+  }
+  return Database::open(path, kUsage);
 }
 
 }  // namespace hydroprint::daemon

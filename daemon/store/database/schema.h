@@ -8,8 +8,10 @@
 namespace hydroprint::daemon {
 
 /// Opens the store of this build, or creates it if the file does not exist. Opening needs no free
-/// disk space.
-/// @return errors of Database::open() and check_build(); kResourceExhausted, DISK_FULL
+/// disk space. Checks the database first (Database::check()), one of 256 MiB or more only if the
+/// last daemon was killed. Also creates the table artifact_bytes, which is only in memory.
+/// @return errors of Database::open(), Database::check() and check_build(); kResourceExhausted,
+///         DISK_FULL
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path);
 
 /// Checks that this build can use a store, if there is one. Reads only the header of the file, so

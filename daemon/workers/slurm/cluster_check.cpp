@@ -88,6 +88,15 @@ Result<ScratchFolder> check_folder(const std::filesystem::path& folder) {
                   folder.string()));
 }
 
+Result<std::string> check_installation(const Settings& settings) {
+  HP_RETURN_IF_ERROR(check_installation_folder(settings));
+  const auto folder = installation_folder(settings);
+  std::error_code ignored;
+  return folder.string() + (std::filesystem::exists(folder, ignored)
+                                ? " belongs to this user alone"
+                                : " is missing; the daemon will create it");
+}
+
 Result<std::string> check_submission(const Config& config, const Settings& settings) {
   Launch launch;
   launch.threads = static_cast<int>(std::max<std::int64_t>(1, config.workers_threads));
@@ -136,6 +145,7 @@ void check_cluster(const Config& config, const std::string& build_id, const Chec
   caller.add(check_line("shared folder", folder.map([&](const auto&) {
     return settings.folder.string() + " can be written";
   })));
+  if (folder) caller.add(check_line("installation folder", check_installation(settings)));
   const auto programs = check_programs();
   caller.add(check_line("Slurm programs", programs));
   if (!programs || caller.is_cancelled()) return;
@@ -147,7 +157,8 @@ void check_cluster(const Config& config, const std::string& build_id, const Chec
   const auto submission = check_submission(config, settings);
   caller.add(check_line("submission", submission));
   if (!submission || !folder || caller.is_cancelled()) return;
-  const NodeRequirements required{config.workers_program, build_id, config.confine_program};
+  const NodeRequirements required{config.workers_program, build_id, config.confine_program,
+                                  !config.workers_allow_without_landlock};
   const Status checked = check_nodes(settings, required, available_nodes(*nodes, caller),
                                      folder->path(), kNodePatience, caller);
   if (!checked) caller.add({Verdict::kFault, "shared folder", checked.error().message});

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "daemon/workers/child_process.h"
 #include "daemon/workers/slurm/script.h"
 
 namespace hydroprint::daemon::slurm {
@@ -25,8 +26,9 @@ cd -- {folder} && [ -f token ] || exit 1
   date '+clock_s %s'
   [ -x {worker} ] && echo has_worker
   echo "build_id $({print_build_id})"
-  words=$({confine} --check 2>&1 >/dev/null) ||
-    printf 'confine_error %s\n' "$(printf '%s\n' "${{words:-failed}}" | tail -n 1)"
+  words=$({confine} --check{flags} 2>&1 >/dev/null) && key=confine_warning || key=confine_error
+  [ "$key$words" = confine_warning ] ||
+    printf '%s %s\n' "$key" "$(printf '%s\n' "${{words:-failed}}" | tail -n 1)"
   echo end
 }} > "$1.new" && mv "$1.new" "$1.findings"
 )sh";
@@ -100,11 +102,12 @@ std::optional<std::vector<Node>> parse_node_list(std::string_view output,
 
 std::string node_check_script(const NodeRequirements& required, const std::filesystem::path& folder,
                               const std::vector<std::string>& options) {
-  return fmt::format(kCheckScript, fmt::arg("options", option_lines(options)),
-                     fmt::arg("folder", quoted(folder)),
-                     fmt::arg("worker", quoted(required.worker)),
-                     fmt::arg("print_build_id", print_build_id(required.worker)),
-                     fmt::arg("confine", quoted(required.confine_program)));
+  return fmt::format(
+      kCheckScript, fmt::arg("options", option_lines(options)), fmt::arg("folder", quoted(folder)),
+      fmt::arg("worker", quoted(required.worker)),
+      fmt::arg("print_build_id", print_build_id(required.worker)),
+      fmt::arg("confine", quoted(required.confine_program)),
+      fmt::arg("flags", required.needs_landlock ? "" : std::string(" ") + kAllowWithoutLandlock));
 }
 
 std::filesystem::path token_file(const std::filesystem::path& folder) { return folder / "token"; }
@@ -128,6 +131,8 @@ std::optional<NodeFindings> parse_findings(std::string_view text) {
       out.build_id = value;
     } else if (key == "confine_error") {
       out.confine_error = value;
+    } else if (key == "confine_warning") {
+      out.confine_warning = value;
     } else if (key == "end") {
       is_complete = true;
     }
@@ -141,6 +146,7 @@ CheckLine judge_node(const std::string& node, const NodeFindings& findings,
   if (const auto faults = faults_of(findings, required); !faults.empty()) {
     return {Verdict::kFault, what, fmt::format("{}", fmt::join(faults, "; "))};
   }
+  if (!findings.confine_warning.empty()) return {Verdict::kNote, what, findings.confine_warning};
   const std::int64_t difference_s = clock_difference_s(findings.clock_s, asked_s, read_s);
   if (std::abs(difference_s) > kMostClockDifference_s) {
     return {Verdict::kNote, what,

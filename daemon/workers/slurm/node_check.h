@@ -36,6 +36,7 @@ struct NodeRequirements {
   std::filesystem::path worker;           ///< the worker program
   std::string build_id;                   ///< of the worker; empty: unknown
   std::filesystem::path confine_program;  ///< hydroprint-confine
+  bool needs_landlock = true;             ///< as in confine::Limits
 };
 
 /// Returns the script that checks the node whose name is its argument. It writes its findings to
@@ -53,10 +54,11 @@ struct NodeRequirements {
 
 /// The findings of the script.
 struct NodeFindings {
-  std::int64_t clock_s = 0;   ///< the node's clock, since 1970
-  bool has_worker = false;    ///< the worker program exists
-  std::string build_id;       ///< of the worker; empty if it prints none
-  std::string confine_error;  ///< why workers cannot be confined; empty: they can
+  std::int64_t clock_s = 0;          ///< the node's clock, since 1970
+  bool has_worker = false;           ///< the worker program exists
+  std::string build_id;              ///< of the worker; empty if it prints none
+  std::string confine_error;         ///< why workers cannot be confined; empty: they can
+  std::string confine_warning = {};  ///< what they can do without Landlock; empty: it is there
 };
 
 /// Parses the findings; nullopt if malformed.

@@ -18,7 +18,7 @@ constexpr std::int64_t kReadAtOnce = 1 << 20;
 
 // Opens the folder first: a network file system then looks again for files that did not exist.
 UniqueFd open_folder(const std::filesystem::path& path) {
-  return UniqueFd(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return UniqueFd(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
 }
 
 // Reads from an offset, or the last bytes if it is negative; empty if there is no such file, or it

@@ -29,4 +29,10 @@ struct Settings {
   return settings.folder / settings.installation;
 }
 
+/// Checks that no other user can change the scripts of jobs, which run as this user: the
+/// installation's folder is not a link, belongs to this user, and gives no rights to others. A
+/// missing folder passes.
+/// @return kFailedPrecondition, which names the folder and the remedy
+[[nodiscard]] Status check_installation_folder(const Settings& settings);
+
 }  // namespace hydroprint::daemon::slurm

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 
 #include "daemon/platform/log.h"
 #include "daemon/workers/slurm/submission.h"
@@ -66,7 +68,9 @@ Result<std::unique_ptr<SlurmExecutor>> SlurmExecutor::make(Settings settings, Pa
     HP_RETURN_IF_ERROR(check_program(program, settings.folder));
   }
   const auto folder = installation_folder(settings);
-  const bool is_new = !std::filesystem::exists(folder, ignored);
+  const bool is_new = ::mkdir(folder.c_str(), 0700) == 0;
+  if (!is_new && errno != EEXIST) return system_failure(folder, "the folder cannot be created");
+  HP_RETURN_IF_ERROR(check_installation_folder(settings));
   HP_ASSIGN_OR_RETURN(FolderLock lock, FolderLock::take(folder));
   return std::unique_ptr<SlurmExecutor>(
       new SlurmExecutor(std::move(settings), pace, std::move(lock), is_new));

@@ -35,9 +35,10 @@ class SlurmExecutor final : public WorkerExecutor {
     std::chrono::milliseconds pause{5'000};          ///< after a call without answer
   };
 
-  /// Locks the folder of the installation.
-  /// @return kFailedPrecondition if the shared folder does not exist, another daemon has the
-  ///         installation's, or the programs of Slurm are missing; errors of the folder
+  /// Creates the folder of the installation, if it is missing, and locks it.
+  /// @return kFailedPrecondition if the shared folder does not exist, the programs of Slurm are
+  ///         missing, or the installation's folder is not the daemon's alone (see
+  ///         check_installation_folder()) or another daemon's; errors of the folder
   [[nodiscard]] static Result<std::unique_ptr<SlurmExecutor>> make(Settings settings, Pace pace);
 
   [[nodiscard]] std::string name() const override { return kSlurmExecutor; }

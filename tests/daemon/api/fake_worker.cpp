@@ -12,11 +12,16 @@
 //   many            writes 900 empty files with long names
 //   nothing         writes no artifacts
 //   link            writes a symbolic link as artifact
+//   pipe            writes a named pipe as artifact
+//   twice           writes an artifact with two names
+//   elsewhere DIR   leaves a link to DIR in place of its output
+//   deep N          writes N folders, one in the other
+//   sparse N GIB    writes N sparse files of this size
 //   garbage         writes a malformed calibration
 //   report WHAT     writes a report that is "garbage", "missing" or "large", or has a "type",
 //                   an "enum" value or a "nan" that is not allowed
 //   babble          writes nonsense as progress
-//   orphan          leaves a child process behind
+//   fork            reports whether it could start a process
 //   socket          reports whether it could open a socket
 //   kill-parent     reports whether it could kill the daemon
 //   hurry           reports whether it could raise its priority
@@ -29,11 +34,13 @@
 // print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera write a
 // calibration and spec.json.
 
+#include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -107,11 +114,19 @@ void eat() {
   }
 }
 
-void start_orphan() {
-  if (fork() == 0) {
-    signal(SIGTERM, SIG_IGN);
-    for (int i = 0; i < 60; ++i) sleep(1);
-    _exit(0);
+void write_deep_folder(int depth) {
+  std::filesystem::current_path(flags["--out"]);
+  for (int i = 0; i < depth; ++i) {
+    if (mkdir("d", 0700) != 0 || chdir("d") != 0) std::abort();
+  }
+}
+
+void write_sparse_files(int count, off_t gib) {
+  for (int i = 0; i < count; ++i) {
+    const std::string file = flags["--out"] + "/sparse-" + std::to_string(i);
+    const int fd = open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+    if (ftruncate(fd, gib << 30) != 0) std::abort();
+    close(fd);
   }
 }
 
@@ -192,8 +207,28 @@ void execute(const std::string& line) {
     std::_Exit(0);
   } else if (command == "link") {
     std::filesystem::create_symlink("/etc/passwd", flags["--out"] + "/passwd");
-  } else if (command == "orphan") {
-    start_orphan();
+  } else if (command == "pipe") {
+    if (mkfifo((flags["--out"] + "/pipe").c_str(), 0600) != 0) std::abort();
+  } else if (command == "twice") {
+    std::ofstream(flags["--out"] + "/one") << "x";
+    std::filesystem::create_hard_link(flags["--out"] + "/one", flags["--out"] + "/two");
+  } else if (command == "elsewhere") {
+    words >> rest;
+    std::filesystem::remove_all(flags["--out"]);
+    std::filesystem::create_directory_symlink(rest, flags["--out"]);
+  } else if (command == "deep") {
+    int depth = 0;
+    words >> depth;
+    write_deep_folder(depth);
+  } else if (command == "sparse") {
+    int count = 0;
+    off_t gib = 0;
+    words >> count >> gib;
+    write_sparse_files(count, gib);
+  } else if (command == "fork") {
+    const pid_t child = fork();
+    if (child == 0) _exit(0);
+    facts += child < 0 ? " no-fork" : " FORK";
   } else if (command == "babble") {
     write_line(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
     write_line(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"

@@ -86,7 +86,7 @@ DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options option
   std::ofstream file(config());
   file << "[workers]\nprogram = \"" << options_.worker.string() << "\"\ncount = " << options_.slots
        << "\nmemory_mib = " << options_.memory_mib << "\ntime_limit_s = " << options_.time_limit_s
-       << "\nfile_mib = " << options_.file_mib << "\n"
+       << "\nfile_mib = " << options_.file_mib << "\nallow_without_landlock = true\n"
        << options_.workers << "\n[queue]\nmax_jobs = " << options_.max_jobs
        << "\nmax_jobs_per_owner = " << options_.max_jobs_per_owner
        << "\n[store]\nmin_free_mib = 1\n"

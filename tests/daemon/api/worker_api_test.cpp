@@ -17,6 +17,8 @@
 namespace hydroprint::tests {
 namespace {
 
+using namespace std::string_literals;
+
 class Workers : public ::testing::Test {
  protected:
   void start(const DaemonProcess::Options& options) {
@@ -67,7 +69,20 @@ TEST_F(Workers, EachKindOfFailureHasItsError) {
   expect_failed("exit 77 what", grpc::INTERNAL, "COMPUTATION_FAILED");
   expect_failed("crash", grpc::INTERNAL, "WORKER_KILLED");
   expect_failed("nothing", grpc::INTERNAL, "WORKER_UNUSABLE");
-  expect_failed("link", grpc::INTERNAL, "WORKER_UNUSABLE");
+}
+
+TEST_F(Workers, OutputOtherThanPlainFilesIsRefused) {
+  start(DaemonProcess::fake());
+  const auto others = folder.path() / "others";
+  std::filesystem::create_directory(others);
+  std::ofstream(others / "key.pem") << "secret";
+  for (const std::string& output : {"link"s, "pipe"s, "twice"s, "deep 500"s,
+                                    "elsewhere " + others.string(), "elsewhere out"s}) {
+    expect_failed(output, grpc::INTERNAL, "WORKER_UNUSABLE");
+  }
+  EXPECT_EQ(content(others / "key.pem"), "secret");
+  EXPECT_TRUE(wait_until([&] { return std::filesystem::is_empty(daemon->state() / "runs"); }));
+  EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
 }
 
 TEST_F(Workers, UnusableReportFailsItsJobAndTheDaemonGoesOn) {
@@ -190,6 +205,34 @@ TEST_F(Workers, FileLimitEndsTheJob) {
   expect_failed("huge", grpc::RESOURCE_EXHAUSTED, "OUTPUT_LIMIT");
 }
 
+// Hashing the files would take an hour.
+TEST_F(Workers, SparseFilesAreRefusedAtOnce) {
+  auto options = DaemonProcess::fake();
+  options.file_mib = 4096;
+  start(options);
+  expect_failed("sparse 400 4", grpc::RESOURCE_EXHAUSTED, "OUTPUT_LIMIT");
+}
+
+TEST_F(Workers, PublishingEndsWithTheDaemonAndOnCancel) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  auto options = DaemonProcess::fake();
+  options.file_mib = 1 << 20;
+  start(options);
+  const std::string job = client->simulate("sparse 1 1024").name();
+  const auto is_publishing = [&](const std::string& attempt) {
+    const auto report = daemon->state() / "runs" / attempt / "work/out/report.json";
+    return std::filesystem::exists(report) && daemon->workers().empty();
+  };
+  ASSERT_TRUE(wait_until([&] { return is_publishing("1-1"); }, 60));
+  EXPECT_EQ(client->job(job).state(), v1::Job::RUNNING);
+  EXPECT_EQ(daemon->terminate(), 0);
+  daemon->start();
+  client = std::make_unique<Client>(daemon->address());
+  ASSERT_TRUE(wait_until([&] { return is_publishing("1-2"); }, 60));
+  client->cancel(job);
+  EXPECT_EQ(client->wait_for_end(job).state(), v1::Job::CANCELLED);
+}
+
 TEST_F(Workers, HaveNoNetworkAndCannotHarmTheDaemon) {
   start(DaemonProcess::fake());
   const v1::Job job = run("socket\nkill-parent");
@@ -221,11 +264,12 @@ TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
       << report;
 }
 
-TEST_F(Workers, ChildrenOfWorkersAreKilled) {
-  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+TEST_F(Workers, CannotStartProcesses) {
   start(DaemonProcess::fake());
-  EXPECT_EQ(run("orphan").state(), v1::Job::SUCCEEDED);
-  EXPECT_TRUE(daemon->workers().empty());
+  const v1::Job job = run("fork");
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string report = client->download(job.name() + "/artifacts/report.json");
+  EXPECT_NE(report.find("no-fork"), std::string::npos) << report;
 }
 
 TEST_F(Workers, MalformedProgressIsIgnored) {

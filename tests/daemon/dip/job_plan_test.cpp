@@ -97,7 +97,8 @@ class DipPlanOfJob : public StoreTest {
     EXPECT_TRUE(jobs->start(job.id));
     std::filesystem::create_directories(layout.artifacts(job.id));
     std::ofstream(layout.artifacts(job.id) / "report.json") << text;
-    EXPECT_TRUE(jobs->succeed(job.id, {{"report.json", 1, "", "application/json"}}));
+    EXPECT_TRUE(jobs->succeed(job.id, {{"report.json", static_cast<std::int64_t>(text.size()),
+                                        sha256(text), "application/json"}}));
     return job_name(job.id);
   }
 };

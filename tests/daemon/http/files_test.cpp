@@ -1,4 +1,6 @@
 // Uploads and downloads over HTTP, through the daemon.
+#include <fstream>
+
 #include "sim/base/sha256.h"
 #include "tests/daemon/http/http_support.h"
 
@@ -161,6 +163,24 @@ TEST_F(HttpFiles, RangesOfAnArtifactAreServed) {
   EXPECT_EQ(range("0-9", "If-Range: " + tag + "\r\n").status, 206);
   EXPECT_EQ(range("0-9", "If-Range: \"other\"\r\n").status, 200);
   EXPECT_EQ(get(path, "If-None-Match: " + tag + "\r\n").status, 304);
+}
+
+TEST_F(HttpFiles, NoByteOfADamagedArtifactIsServed) {
+  const std::string path = huge();
+  EXPECT_EQ(get(path, "Range: bytes=0-9\r\n").status, 206);
+  {
+    std::fstream file(daemon.state() / "artifacts" / "1" / "huge",
+                      std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(60 << 20);
+    file << 'y';
+    ASSERT_TRUE(file);
+  }
+  for (const char* const range : {"", "Range: bytes=0-9\r\n", "Range: bytes=-1\r\n"}) {
+    const HttpAnswer refused = get(path, range);
+    EXPECT_EQ(refused.status, 500) << range;
+    EXPECT_EQ(refused.reason(), "ARTIFACT_DAMAGED") << range;
+    EXPECT_NE(refused.body.find("hydroprint retry 1"), std::string::npos) << refused.body;
+  }
 }
 
 TEST_F(HttpFiles, SlowReaderCostsLittleMemory) {

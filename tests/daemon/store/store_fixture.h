@@ -28,6 +28,15 @@ class StoreTest : public ::testing::Test {
 
   /// Opens the store as a daemon does at the start, as if the previous one had been killed.
   void open() {
+    open_stores();
+    EXPECT_TRUE(jobs->interrupt_all(Interruption::kLoss));
+    EXPECT_TRUE(job_retention->sweep());
+    EXPECT_TRUE(asset_retention->sweep());
+    EXPECT_TRUE(asset_retention->purge());
+  }
+
+  /// Opens the store without the repairs of the start.
+  void open_stores() {
     close();
     database = open_store(layout.database()).value();
     const auto clock = [this] { return now_ms; };
@@ -39,10 +48,6 @@ class StoreTest : public ::testing::Test {
     assets = std::make_unique<AssetStore>(*database, layout, clock);
     uploads = std::make_unique<Uploads>(*database, *assets, layout, upload_options, clock);
     asset_retention = std::make_unique<AssetRetention>(*database, layout, keep_unused_ms, clock);
-    EXPECT_TRUE(jobs->interrupt_all(Interruption::kLoss));
-    EXPECT_TRUE(job_retention->sweep());
-    EXPECT_TRUE(asset_retention->sweep());
-    EXPECT_TRUE(asset_retention->purge());
   }
 
   /// Closes the store and leaves it as a killed daemon would.

@@ -29,7 +29,8 @@ constexpr std::chrono::seconds kPatience{60};
 /// Starts a program in a folder.
 ChildProcess started(Launch launch_plan, const TemporaryFolder& folder) {
   launch_plan.inputs = launch_plan.work = folder.path();
-  launch_plan.limits = {.cpu_s = 10, .file_bytes = 1 << 20};
+  launch_plan.limits = {
+      .cpu_s = 10, .file_bytes = 1 << 20, .needs_landlock = confine::landlock_version() > 0};
   if (launch_plan.confine_program.empty()) {
     launch_plan.confine_program = program_path("hydroprint-confine");
   }
@@ -106,7 +107,11 @@ TEST(ChildProcess, RunsInItsInputFolderWithLimitsAndFilter) {
 TEST(ChildProcess, HasTheProcessIdOfItsHandleAndLeadsItsGroup) {
   const TemporaryFolder folder;
   const ChildProcess child = started(
-      {.program = "/bin/sh", .arguments = {"-c", "echo $$; ps -o pgid= -p $$ >&3"}}, folder);
+      {.program = "/bin/sh",
+       .arguments =
+           {"-c",
+            "echo $$; read -r id name state parent group rest </proc/self/stat; echo $group >&3"}},
+      folder);
   const auto status = wait_for_end(child, kPatience);
   EXPECT_EQ(status, 0);
   std::string id, group;
@@ -168,19 +173,41 @@ TEST(ChildProcess, IsKilledWhenItsThreadEnds) {
 
 TEST(ChildProcess, ConfinementIsChecked) {
   const std::string confine_program = program_path("hydroprint-confine");
-  const Status checked = check_confinement(confine_program);
-  EXPECT_TRUE(checked) << checked.error().message;
-  const auto expect_words = [](const Status& status, const std::string& words) {
+  const auto check = [](const std::filesystem::path& program) {
+    return check_confinement(program, /*needs_landlock=*/false);
+  };
+  const auto checked = check(confine_program);
+  ASSERT_TRUE(checked) << checked.error().message;
+  EXPECT_EQ(checked->empty(), confine::landlock_version() > 0) << *checked;
+  const auto expect_words = [](const Result<std::string>& status, const std::string& words) {
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, Code::kFailedPrecondition);
     EXPECT_NE(status.error().message.find(words), std::string::npos) << status.error().message;
     EXPECT_EQ(status.error().message.find('\n'), std::string::npos);
   };
-  expect_words(check_confinement("/no/such/program"), "/no/such/program");
-  expect_words(check_confinement("/bin/false"), "/bin/false");
-  const KernelWithout missing({SYS_seccomp}, EPERM, /*also_prctl=*/true);
-  expect_words(*missing.call([&] { return std::optional(check_confinement(confine_program)); }),
+  expect_words(check("/no/such/program"), "/no/such/program");
+  expect_words(check("/bin/false"), "/bin/false");
+  const KernelWithout seccomp({SYS_seccomp}, EPERM, /*also_prctl=*/true);
+  expect_words(*seccomp.call([&] { return std::optional(check(confine_program)); }),
                "this machine cannot confine workers");
+  const KernelWithout landlock({SYS_landlock_create_ruleset}, ENOSYS);
+  expect_words(
+      *landlock.call([&] { return std::optional(check_confinement(confine_program, true)); }),
+      "workers.allow_without_landlock");
+  const auto allowed = *landlock.call([&] { return std::optional(check(confine_program)); });
+  ASSERT_TRUE(allowed) << allowed.error().message;
+  EXPECT_NE(allowed->find("every file"), std::string::npos) << *allowed;
+}
+
+TEST(ChildProcess, PassesOnWhetherLandlockIsNeeded) {
+  Launch program{.program = "/bin/true", .confine_program = "/confine"};
+  const auto flags = [&] {
+    const std::vector<std::string> words = command_of(program);
+    return std::count(words.begin(), words.end(), "--allow-without-landlock");
+  };
+  EXPECT_EQ(flags(), 0);
+  program.limits.needs_landlock = false;
+  EXPECT_EQ(flags(), 1);
 }
 
 }  // namespace

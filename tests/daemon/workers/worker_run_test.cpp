@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <future>
@@ -110,6 +111,12 @@ TEST_F(WorkerRunTest, ExceededMemoryIsTheLimitAndNotAKill) {
   EXPECT_FALSE(std::filesystem::exists(layout.run(id).root));
 }
 
+TEST_F(WorkerRunTest, ExceededOutputIsTheLimitAndNotAKill) {
+  start({std::chrono::seconds(60)});
+  EXPECT_TRUE(step(WorkerEnds{.wait_status = SIGKILL, .exceeded_output = true}));
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::OUTPUT_LIMIT);
+}
+
 TEST_F(WorkerRunTest, WorkerThatIsGoneAfterACancelIsCancelled) {
   start({std::chrono::seconds(60)});
   ASSERT_TRUE(jobs->cancel(id));
@@ -122,6 +129,52 @@ TEST_F(WorkerRunTest, WorkerThatIsGoneIsQueuedAgain) {
   start({std::chrono::seconds(60)});
   EXPECT_TRUE(step(WorkerIsGone()));
   EXPECT_EQ(job().state, JobState::kQueued);
+}
+
+/// A worker that left a sparse file, which would be hashed for an hour.
+class EndlessPublishing : public WorkerRunTest {
+ protected:
+  void SetUp() override {
+    constexpr std::int64_t kTiB = 1LL << 40;
+    start({std::chrono::seconds(60), kMostSilence, {kTiB, kTiB}});
+    const auto out = layout.run(id).out();
+    std::filesystem::create_directories(out);
+    std::ofstream(out / "film.png") << "";
+    ASSERT_EQ(::truncate((out / "film.png").c_str(), kTiB), 0);
+    EXPECT_FALSE(step(WorkerEnds{}));
+    EXPECT_EQ(job().state, JobState::kRunning);
+  }
+};
+
+TEST_F(EndlessPublishing, EndsOnCancel) {
+  ASSERT_TRUE(jobs->cancel(id));
+  run->stop(StopReason::kCancel);
+  EXPECT_TRUE(testing::wait_until([&] { return step(std::nullopt); }));
+  EXPECT_EQ(job().state, JobState::kCancelled);
+  EXPECT_FALSE(std::filesystem::exists(layout.run(id).root));
+}
+
+TEST_F(EndlessPublishing, EndsWithTheDaemonAndLeavesTheJobOpen) {
+  run->stop(StopReason::kShutdown);
+  EXPECT_TRUE(step(std::nullopt));
+  run.reset();
+  EXPECT_EQ(job().state, JobState::kRunning);
+  EXPECT_EQ(jobs->executions()->size(), 1U);
+}
+
+TEST_F(EndlessPublishing, EndsWithADaemonThatTheWorkerOutlives) {
+  const auto root = run->execution().folder;
+  run.reset();
+  EXPECT_TRUE(std::filesystem::exists(root)) << "the next daemon publishes it";
+}
+
+TEST_F(WorkerRunTest, OutputThatIsALinkToItselfFailsTheJob) {
+  start({std::chrono::seconds(60)});
+  std::filesystem::create_directories(layout.run(id).work());
+  std::filesystem::create_symlink("out", layout.run(id).out());
+  const bool is_over = step(WorkerEnds{});
+  EXPECT_TRUE(is_over || testing::wait_until([&] { return step(std::nullopt); }));
+  EXPECT_EQ(job().failure->error.reason, ErrorReason::WORKER_UNUSABLE);
 }
 
 /// The folder of the run is on another file system, and an input whose copy ends when somebody
@@ -167,7 +220,7 @@ class SlowShare : public WorkerRunTest {
     woken.get_future().wait();
   }
 
-  const std::string kSha256 = std::string(64, 'a');
+  const std::string kSha256 = sha256("");  // a pipe has no bytes to copy
   std::filesystem::path share;
   std::promise<void> woken;
   bool is_released = false;

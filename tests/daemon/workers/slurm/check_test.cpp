@@ -62,10 +62,10 @@ TEST_F(ClusterCheck, EachNodeIsOkBesideADaemonAndNothingIsLeft) {
   const DaemonProcess beside(folder.path(), options);
   const testing::Ended ended = check();
   EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
-  for (const char* line :
-       {"ok    worker: ", "ok    confinement: ", "ok    state folder: ", "ok    shared folder: ",
-        "ok    Slurm programs: ", "ok    Slurm controller: answers; 2 nodes\n",
-        "ok    submission: ", "ok    node node1: ", "ok    node node2: "}) {
+  for (const char* line : {"ok    worker: ", "ok    confinement: ", "ok    state folder: ",
+                           "ok    shared folder: ", "ok    installation folder: ",
+                           "ok    Slurm programs: ", "ok    Slurm controller: answers; 2 nodes\n",
+                           "ok    submission: ", "ok    node node1: ", "ok    node node2: "}) {
     EXPECT_NE(ended.out.find(line), std::string::npos) << line << "\n" << ended.out;
   }
   for (const auto& entry : std::filesystem::directory_iterator(shared())) {
@@ -87,6 +87,15 @@ TEST_F(ClusterCheck, NodeWithAnotherBuildIsAFaultWithBothIds) {
                              ": has build bb of the worker, and this machine has build aa;";
     EXPECT_NE(ended.out.find(line), std::string::npos) << ended.out;
   }
+}
+
+TEST_F(ClusterCheck, InstallationFolderThatOthersCanChangeIsAFault) {
+  std::filesystem::create_directory_symlink(folder.path(), shared() / "default");
+  const testing::Ended ended = check();
+  EXPECT_EQ(ended.status, 4);
+  const std::string line = "FAULT installation folder: " + (shared() / "default").string() +
+                           ": is not a folder, but a link";
+  EXPECT_NE(ended.out.find(line), std::string::npos) << ended.out;
 }
 
 TEST_F(ClusterCheck, UnknownPartitionIsAFaultWithSlurmsWords) {

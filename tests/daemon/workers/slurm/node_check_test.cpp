@@ -97,6 +97,16 @@ TEST_F(NodeCheckScript, NodeThatCannotConfineIsAFaultWithItsWords) {
   EXPECT_EQ(line().verdict, Verdict::kFault);
 }
 
+TEST_F(NodeCheckScript, NodeWithoutLandlockIsANoteIfItIsAllowed) {
+  program(required.confine_program,
+          "[ \"$2\" = --allow-without-landlock ] && echo 'without Landlock' >&2");
+  EXPECT_EQ(line().verdict, Verdict::kFault);
+  required.needs_landlock = false;
+  const CheckLine found = line();
+  EXPECT_EQ(found.verdict, Verdict::kNote);
+  EXPECT_EQ(found.detail, "without Landlock");
+}
+
 TEST(NodeCheck, FindingsThatAreNotCompleteAreIgnored) {
   EXPECT_FALSE(parse_findings(""));
   EXPECT_FALSE(parse_findings("clock_s 1800000000\nhas_worker\nbuild_id ab\n"));

@@ -112,6 +112,9 @@ function Line() {
           </strong>
         )}
       </p>
+      {line.confinementWarning && (
+        <p class="warning">Workers are not fully confined: {line.confinementWarning}.</p>
+      )}
       {may('OPERATOR') &&
         (line.paused ? (
           <Button
